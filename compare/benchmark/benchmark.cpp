@@ -72,7 +72,7 @@ int main(int argc, char** argv) {
   app.add_flag("--quick", cases.quick, "only cases with fewer than 10^6 nodes, three repeats");
   app.add_option("--only", cases.only,
                  "only these cases, for example random-1e4,latlon-1e5; `distributions...`, `scvt`, "
-                 "`warm-start` and `queries-...` run only if named")
+                 "`warm-start`, `threads`, `busy` and `queries-...` run only if named")
       ->delimiter(',')
       ->check(CLI::IsMember(case_names()));
   app.add_option("--sets", cases.sets, "only these point sets in the cases `distributions...`")
@@ -128,6 +128,7 @@ int main(int argc, char** argv) {
   app.add_option("--model-points", model.points)->group("");
   app.add_option("--model-order", model.order)->group("");
   app.add_option("--model-nodes", model.n)->group("");
+  app.add_option("--model-pause", model.pause_ms)->group("");
   MovingModel moving_model;  // see run_time_of_warm_starts
   app.add_option("--be-the-moving-model", moving_model.moves)->group("");
   try {

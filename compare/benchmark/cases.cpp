@@ -24,6 +24,7 @@
 #include "time_of_orders.h"
 #include "time_of_queries.h"
 #include "time_of_scvt.h"
+#include "time_of_threads.h"
 #include "time_of_warm_starts.h"
 
 namespace benchmark {
@@ -127,36 +128,6 @@ std::string ratio(const Samples& theirs, const Samples& own, double required) {
 // ---- on threads, and with a pool of ranks -----------------------------------------------------------
 
 const Model kModel{"random", "given", 1000000, 5};
-
-/// Measures TRMESH on all processors and on one thread in turn. In this process, since a forked child has
-/// only one thread; it must be the last case.
-void run_threads(const std::string& self, int repeats) {
-#ifdef _OPENMP
-  constexpr double kRequired = 1.75;  // of two threads
-  const Nodes nodes(nodes_in_order(kModel.points, static_cast<std::size_t>(kModel.n), kModel.order));
-  const Stripack library = ours();
-  const int processors = omp_get_num_procs();
-  Lists lists(nodes.n());
-  const auto seconds_on = [&](int threads) {
-    omp_set_num_threads(threads);
-    const auto start = Clock::now();
-    library.trmesh(nodes, lists);
-    return seconds_since(start);
-  };
-  Samples one, all;
-  while (!all.enough(repeats)) {
-    measure_in_a_row(one, [&] { return seconds_on(1); });
-    measure_in_a_row(all, [&] { return seconds_on(processors); });
-  }
-  fmt::print("{:<17} {:>8} {:>9} on 1 thread, {} on {}: {:.2f} times the speed{}; peak {:.0f}\n",
-             "threads-1e6", nodes.n(), microseconds(one, nodes.n()), microseconds(all, nodes.n()), processors,
-             one.median() / all.median(), processors == 2 ? fmt::format(" ({:g})", kRequired) : "",
-             as_model(self, fmt::format("OMP_NUM_THREADS={}", processors), kModel).peak);
-#else
-  static_cast<void>(self);
-  static_cast<void>(repeats);
-#endif
-}
 
 /// Measures CRLIST on all processors and the original's in turn; libngmath's if the original is libngmath. In
 /// this process.
@@ -322,13 +293,14 @@ void run(const Case& c, const std::optional<legacy_stripack::Original>& if_any, 
   std::fflush(stdout);
 }
 
-const std::vector<std::string> kParallelCases{"threads-1e6", "pool-1e6", "crlist-threads"};
+const std::vector<std::string> kParallelCases{"pool-1e6", "crlist-threads"};
 const std::vector<std::pair<std::string, int>> kTimesOfOrders{{"orders-1e5", 100000},
                                                               {"orders-1e6", 1000000}};
 const std::vector<std::pair<std::string, int>> kTimesOfQueries{
     {"queries-1e3", 1000}, {"queries-1e4", 10000}, {"queries-1e5", 100000}, {"queries-1e6", 1000000}};
 const std::string kDistributions = "distributions", kOnThreads = "distributions-threads",
-                  kWarmStart = "warm-start", kScvt = "scvt", kMemoryOfLists = "memory-of-lists";
+                  kWarmStart = "warm-start", kScvt = "scvt", kMemoryOfLists = "memory-of-lists",
+                  kThreads = "threads", kBusy = "busy";
 
 }  // namespace
 
@@ -344,6 +316,8 @@ std::vector<std::string> case_names() {
   names.push_back(kWarmStart);
   names.push_back(kScvt);
   names.push_back(kMemoryOfLists);
+  names.push_back(kThreads);
+  names.push_back(kBusy);
   return names;
 }
 
@@ -357,6 +331,8 @@ void run_cases(const std::string& self, const CaseSettings& settings,
     if (is_wanted(name, !quick)) run_time_of_orders(n, repeats);
   if (is_wanted(kWarmStart, false)) run_time_of_warm_starts(self, repeats);
   if (is_wanted(kScvt, false)) run_time_of_scvt(quick, repeats);
+  if (is_wanted(kThreads, false)) run_time_of_threads(self, repeats);
+  if (is_wanted(kBusy, false)) run_time_of_threads_on_busy_machine(self, repeats);
   if (is_wanted(kMemoryOfLists, false)) print_memory_of_lists();
   if (is_wanted(kDistributions, false)) run_time_of_distributions(sets, repeats);
   if (is_wanted(kOnThreads, false)) run_distributions_on_threads(sets, repeats);
@@ -367,7 +343,8 @@ void run_cases(const std::string& self, const CaseSettings& settings,
     }
   const auto has_its_own_table = [](const std::string& name) {
     return name == kDistributions || name == kOnThreads || name == kWarmStart || name == kScvt ||
-           name == kMemoryOfLists || name.rfind("orders-", 0) == 0 || name.rfind("queries-", 0) == 0;
+           name == kMemoryOfLists || name == kThreads || name == kBusy || name.rfind("orders-", 0) == 0 ||
+           name.rfind("queries-", 0) == 0;
   };
   if (!only.empty() && std::all_of(only.begin(), only.end(), has_its_own_table)) return;
 
@@ -387,7 +364,6 @@ void run_cases(const std::string& self, const CaseSettings& settings,
   for (const OrderCase& c : kOrderCases)
     if (is_wanted(c.name, !quick || c.n < 1000000)) run_order(c, self, original_library, repeats);
   if (is_wanted("pool-1e6", !quick)) run_pool(self, repeats);
-  if (is_wanted("threads-1e6", !quick)) run_threads(self, repeats);
   if (is_wanted("crlist-threads", !quick)) run_crlist_on_threads(original_library, repeats);
   fmt::print(
       "\ncrlist: against CSCRLIST as libngmath ships it, which turns centres into latitudes and longitudes;"

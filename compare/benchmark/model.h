@@ -9,6 +9,7 @@ namespace benchmark {
 struct Model {
   std::string points = "random", order = "given";
   int n = 1000000, calls = 0;
+  int pause_ms = -1;  ///< between calls with other nodes each, whose median is taken; -1: all have the same
 };
 
 struct ModelFigures {
@@ -18,7 +19,8 @@ struct ModelFigures {
 /// Runs this program as the model. Returns the exit code.
 int be_the_model(const Model& model);
 
-/// Runs the model by the command `launcher`, which may begin with NAME=VALUE.
+/// Runs the model by the command `launcher`, which may begin with NAME=VALUE. If that starts several, the
+/// figures of the slowest.
 ModelFigures as_model(const std::string& self, const std::string& launcher, const Model& model);
 
 }  // namespace benchmark

@@ -10,11 +10,8 @@
 
 #include "base/buffer.h"
 #include "base/floating_point.h"
+#include "base/parallel_for.h"
 #include "geometry/point.h"
-
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 namespace bindings {
 
@@ -24,31 +21,11 @@ using pstripack::Buffer;
 template <class T>
 using Array = py::array_t<T, py::array::c_style>;
 
-/// Sets OpenMP's number of threads for its lifetime; 0: does not change it.
-class Threads {
- public:
-#ifdef _OPENMP
-  explicit Threads(int threads) : saved_(omp_get_max_threads()) {
-    if (threads > 0) omp_set_num_threads(threads);
-  }
-  ~Threads() { omp_set_num_threads(saved_); }
-#else
-  explicit Threads(int) {}
-#endif
-  Threads(const Threads&) = delete;
-  Threads& operator=(const Threads&) = delete;
-
- private:
-#ifdef _OPENMP
-  int saved_;
-#endif
-};
-
 /// Runs body() on this number of threads without Python's lock.
 template <class Body>
 auto compute(int threads, const Body& body) {
   const py::gil_scoped_release unlocked;
-  const Threads limit(threads);
+  const pstripack::ChosenThreads limit(threads);
   return pstripack::in_default_floating_point(body);
 }
 

@@ -1,5 +1,6 @@
 // PSTRIPACK_REPORT. The library reads it when it is loaded, so every case runs this program again.
 
+#include <omp.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -38,7 +39,9 @@ const std::string kPhases = " seconds=" + kSeconds + " divide=" + kSeconds + " t
                             " merge=" + kSeconds + " lists=" + kSeconds + " gather=" + kSeconds;
 
 std::string line_of(const std::string& before_seconds) {
-  return "pstripack: threads " + before_seconds + kPhases + " rounds=[0-9]+ halo=[0-9]+ bytes=0 start=cold";
+  const std::string words =
+      std::regex_replace(before_seconds, std::regex("threads=[0-9]+"), "$& of=[0-9]+ limit=[a-z]+");
+  return "pstripack: threads " + words + kPhases + " rounds=[0-9]+ halo=[0-9]+ bytes=0 start=cold";
 }
 std::string row_of(int calls) {
   return "pstripack: threads +" + std::to_string(calls) + "( +" + kSeconds + "){7}";
@@ -72,6 +75,39 @@ TEST(Report, HasALineACallAndATableAtExit) {
     EXPECT_TRUE(matches(all[i], line_of("n=1000 ranks=1 threads=1 triangles=1996 boundary=0 ier=0")));
   EXPECT_EQ(all[2].find("pstripack: total seconds"), 0u);
   EXPECT_TRUE(matches(all[3], row_of(2)));
+}
+
+/// threads=..., of=... and limit=... of a call of TRMESH by this program under `environment`.
+std::string threads_of(const std::string& environment, const std::string& call) {
+  const Folder folder;
+  const std::string line = run(folder, environment + " PSTRIPACK_REPORT=1", call).err;
+  std::smatch match;
+  return std::regex_search(line, match, std::regex("threads=[0-9]+ of=[0-9]+ limit=[a-z]+")) ? match.str()
+                                                                                             : line;
+}
+
+TEST(Report, TellsHowManyThreadsACallTakesAndWhy) {
+  const std::string unset = "env -u OMP_NUM_THREADS", ranks = unset + " OMPI_COMM_WORLD_LOCAL_SIZE=100000",
+                    call = "inserted random 60000 1";
+  const std::string of = " of=" + std::to_string(omp_get_num_procs());
+  EXPECT_EQ(threads_of("OMP_NUM_THREADS=1", call), "threads=1" + of + " limit=asked");
+  EXPECT_EQ(threads_of("OMP_NUM_THREADS=3", call), "threads=3" + of + " limit=asked");
+  EXPECT_EQ(threads_of("OMP_NUM_THREADS=3", "inserted random 29999 1"), "threads=1" + of + " limit=size");
+  if (omp_get_num_procs() == 1) return;
+  EXPECT_EQ(threads_of(ranks, call), "threads=1" + of + " limit=ranks");
+  EXPECT_EQ(threads_of("taskset -c 0 " + unset, call), "threads=1 of=1 limit=none");
+}
+
+TEST(Report, TellsOfAMachineThatOthersUse) {
+  if (omp_get_num_procs() == 1) return;
+  const Folder folder;
+  const std::string spin =
+      "pids=; for i in $(seq " + std::to_string(2 * std::thread::hardware_concurrency()) +
+      "); do { while :; do :; done; } & pids=\"$pids $!\"; done; trap 'kill $pids' EXIT; ";
+  const Outcome outcome =
+      run(folder, spin + "env -u OMP_NUM_THREADS PSTRIPACK_REPORT=1", "inserted random 60000 1");
+  for (const std::string& line : lines(outcome.err))
+    EXPECT_TRUE(matches(line, ".*(threads=1 of=[0-9]+ limit=busy|total seconds|: threads +1) .*"));
 }
 
 TEST(Report, AWordIsNoFile) {

@@ -64,13 +64,13 @@ comm | distributed)
     run "$case"
     if [ "$case" = comm ]; then
       [ "$(wc -l < report)" -eq 4 ] || fail "not four lines"
-      line 1 "comm n=1000 ranks=$ranks threads=1 triangles=1996 boundary=0 ier=0"
-      line 2 "comm n=1000 ranks=$ranks threads=1 triangles=136 boundary=0 ier=31"
+      line 1 "comm n=1000 ranks=$ranks threads=1 of=[0-9]+ limit=[a-z]+ triangles=1996 boundary=0 ier=0"
+      line 2 "comm n=1000 ranks=$ranks threads=1 of=[0-9]+ limit=[a-z]+ triangles=136 boundary=0 ier=31"
       row 4 comm 2
     else
       [ "$(wc -l < report)" -eq 5 ] || fail "not five lines"
-      line 1 "distributed n=500 ranks=$ranks threads=1 triangles=[0-9]+ boundary=[1-9][0-9]* ier=0"
-      line 2 "distributed-gather n=500 ranks=$ranks threads=1 triangles=[0-9]+ boundary=[1-9][0-9]* ier=0"
+      line 1 "distributed n=500 ranks=$ranks threads=1 of=[0-9]+ limit=[a-z]+ triangles=[0-9]+ boundary=[1-9][0-9]* ier=0"
+      line 2 "distributed-gather n=500 ranks=$ranks threads=1 of=[0-9]+ limit=[a-z]+ triangles=[0-9]+ boundary=[1-9][0-9]* ier=0"
       row 4 distributed 1
       row 5 distributed-gather 1
     fi

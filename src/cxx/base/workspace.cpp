@@ -99,7 +99,8 @@ Block::Block(std::size_t bytes) {
 Block::~Block() {
   if (memory_.size() < kSmallest || memory_.size() > most_cached) return;
 #ifdef MADV_FREE
-  constexpr std::size_t kWorthASystemCall = std::size_t{4} << 20;
+  // Where a hypervisor keeps page tables of its own, the next call pays 1 us a page for this.
+  constexpr std::size_t kWorthASystemCall = std::size_t{32} << 20;
   if (memory_.size() >= kWorthASystemCall)
     madvise(memory_.data(), memory_.size(), MADV_FREE);  // if refused, the pages stay with the process
 #endif

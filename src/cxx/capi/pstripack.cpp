@@ -46,7 +46,7 @@ TrmeshResult carry_out(const TrmeshCall& call, CallReport* report) noexcept {
   const double start = clock_seconds(CLOCK_MONOTONIC);
   const TrmeshResult result = carry_out(call, &report);
   if (result.is_silent) return result;
-  if (report.mode == CallWay::on_threads) report.cost.total = report.cost.maximum;
+  if (report.mode == CallWay::on_threads) report.cost = GroupCost(report.cost.maximum);
   report.seconds = clock_seconds(CLOCK_MONOTONIC) - start;
   report.n = call.n;
   report.ier = result.ier;

@@ -242,7 +242,7 @@ void ByRanks::find_slices(std::size_t n) {
     });
     knows_slices_ = true;  // on all ranks or on none
     options_.partition = share_.header.partition;
-    cost_.threads = options_.threads;
+    cost_.set_threads({options_.threads, options_.thread_limit});
   }
   for (std::size_t r = 0; r < begin_.size(); ++r)
     begin_[r] = std::min(n, share_.header.slice(static_cast<int>(r), ranks_));

@@ -99,7 +99,7 @@ std::int32_t DistributedMesh::triangulate_into(const LocalNodes& points, const N
   options.partition = numbering.partition;
   options.with_neighbours = true;
   options.last = homes_.get();
-  cost.threads = options.threads;
+  cost.set_threads({options.threads, options.thread_limit});
   Stars<Int> stars = pstripack::triangulate<Int>(counted, numbering.check, {a.point, b.point, c.point},
                                                  {value_of(a.number), value_of(b.number), value_of(c.number)},
                                                  ranks_, options, &cost);
@@ -250,7 +250,7 @@ bool DistributedMesh::move_stars(std::unique_ptr<MovingStars> moving, std::optio
     own_.change([&](auto& stars) { moving->update(stars); });
     next_.sample = moving->sample();
   });
-  cost.threads = threads_for(points.count);
+  cost.set_threads(thread_count(points.count));
   cost.halo = static_cast<std::int64_t>(own_.outside().size());
   cost.rounds = moving->rounds();
   cost.flips = static_cast<std::int64_t>(moving->flips());

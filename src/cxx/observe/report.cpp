@@ -93,9 +93,12 @@ class Report {
     const std::int64_t mesh = call.nodes_in_mesh, boundary = call.boundary_nodes;
     const std::int64_t triangles = mesh == 0 ? 0 : 2 * mesh - (boundary == 0 ? 4 : 2 + boundary);  // Euler
     Text line;
-    line.add("pstripack: %s n=%lld ranks=%d threads=%d triangles=%lld boundary=%lld ier=%d seconds=",
-             kMode[call.mode], static_cast<long long>(call.n), call.ranks, call.cost.maximum.threads,
-             static_cast<long long>(triangles), static_cast<long long>(boundary), static_cast<int>(call.ier));
+    line.add(
+        "pstripack: %s n=%lld ranks=%d threads=%d of=%d limit=%s triangles=%lld boundary=%lld ier=%d "
+        "seconds=",
+        kMode[call.mode], static_cast<long long>(call.n), call.ranks, call.cost.maximum.threads,
+        processors_of_mask(), name_of(call.cost.mine.limit), static_cast<long long>(triangles),
+        static_cast<long long>(boundary), static_cast<int>(call.ier));
     line.add_seconds(total);
     for (int i = 0; i < ParallelCost::phases; ++i) {
       line.add(" %s=", kPhase[i]);

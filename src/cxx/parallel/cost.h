@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "base/parallel_for.h"
 #include "parallel/communicator.h"
 
 namespace pstripack {
@@ -20,11 +21,14 @@ struct ParallelCost {
   enum Phase { divide, triangulate, merge, lists, gather, phases };
   double seconds[phases] = {}, cpu_seconds[phases] = {};
   int threads = 1;
+  ThreadLimit limit = ThreadLimit::size;  ///< why no more threads
   int rounds = 0;         ///< how often lists of patches did not match; of a warm call, exchanges of flips
   int in_one_patch = 0;   ///< 1: at last one rank had to triangulate all
   std::int64_t halo = 0;  ///< nodes of other patches that the patches of this rank took in
   std::int64_t bytes_sent = 0;
   std::int64_t flips = -1;  ///< of a call that began with an earlier mesh; -1: it did not
+
+  void set_threads(ThreadCount count) { threads = count.threads, limit = count.limit; }
 };
 
 /// The costs of this rank and of its group: the largest of each, and their sums.

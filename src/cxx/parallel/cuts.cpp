@@ -58,14 +58,16 @@ std::vector<double> Halver::heights(const Point* p, std::size_t n, std::size_t f
 
 // ---- level by level ---------------------------------------------------------------------------------
 
-Cuts::Cuts(int patches, std::vector<Point> sample, std::vector<Point> counted)
+Cuts::Cuts(int patches, std::vector<Point> sample, BlockArray<Point> counted)
     : patches_(patches),
       sample_(std::move(sample)),
       counted_(std::move(counted)),
       halves_(std::max(sample_.size(), counted_.size())) {}
 
-Cuts Cuts::of_sample(int patches, std::vector<Point> sample, std::vector<Point> counted) {
-  Cuts cuts(patches, std::move(sample), std::move(counted));
+Cuts Cuts::of_sample(int patches, std::vector<Point> sample, const std::vector<Point>& counted) {
+  BlockArray<Point> block(counted.size());
+  std::copy(counted.begin(), counted.end(), block.begin());
+  Cuts cuts(patches, std::move(sample), std::move(block));
   for (int level = 0; level < levels(patches); ++level) {
     std::vector<std::int64_t> counter(counters(level));
     cuts.cut();

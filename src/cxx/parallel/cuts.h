@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/workspace.h"
 #include "geometry/point.h"
 
 namespace pstripack {
@@ -57,7 +58,7 @@ class Halver {
   }
 
  private:
-  std::vector<Point> others_;
+  BlockArray<Point> others_;
   std::vector<double> height_;
 };
 
@@ -75,10 +76,10 @@ class Cuts {
 
   /// No cuts yet. Points have a length of about 1. The sample is the same on every rank; `counted` are nodes
   /// of this rank.
-  Cuts(int patches, std::vector<Point> sample, std::vector<Point> counted);
+  Cuts(int patches, std::vector<Point> sample, BlockArray<Point> counted);
   Cuts(Cuts&&) = default;  // boxes point into the arrays
   /// All cuts, at the medians of the sample, moved by the counts of this rank alone.
-  static Cuts of_sample(int patches, std::vector<Point> sample, std::vector<Point> counted = {});
+  static Cuts of_sample(int patches, std::vector<Point> sample, const std::vector<Point>& counted = {});
 
   /// The number of levels of cuts.
   static int levels(int patches);
@@ -108,7 +109,8 @@ class Cuts {
   void cut(const Points& sample, const Points& counted, int patches);
 
   const int patches_;
-  std::vector<Point> sample_, counted_;
+  std::vector<Point> sample_;
+  BlockArray<Point> counted_;
   Halver halves_;
   std::vector<Cut> cuts_;
   std::vector<Box> boxes_;  ///< of this level

@@ -21,8 +21,9 @@ class Homes;
 
 struct ParallelOptions {
   PartitionKind partition = PartitionKind::bisection;
-  int patches = 1;  ///< of this rank, perhaps 0; may differ from rank to rank
-  int threads = 1;  ///< of this rank
+  int patches = 1;                               ///< of this rank, perhaps 0; may differ from rank to rank
+  int threads = 1;                               ///< of this rank
+  ThreadLimit thread_limit = ThreadLimit::size;  ///< for reports
   /// Fill Stars::outside, and give the stars memory of their own, so that the hulls can be freed. The numbers
   /// must be counted through all ranks: see NodeRanges.
   bool with_neighbours = false;

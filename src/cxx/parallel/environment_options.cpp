@@ -42,8 +42,11 @@ bool warm_start_is_allowed() {
 ParallelOptions options_from_environment(std::size_t local_nodes) {
   ParallelOptions options;
   options.partition = read_once([] { return partition_from_environment(); });
-  options.threads = threads_for(local_nodes);
-  options.patches = options.threads;
+  // Two patches pay from 30,000 nodes on, with other work between the calls: 15,000 nodes are worth a thread,
+  // where thread_count() takes 10,000 items. pstripack-benchmark --only threads shows it.
+  const ThreadCount count = thread_count(2 * local_nodes / 3);
+  options.threads = options.patches = count.threads;
+  options.thread_limit = count.limit;
   return options;
 }
 

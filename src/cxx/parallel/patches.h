@@ -1,6 +1,7 @@
 #pragma once
 // The third phase: every patch triangulates its own nodes, its halo and a few nodes of the sample.
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <vector>
@@ -24,9 +25,9 @@ struct Patches {
   template <class Body>
   void for_each(int threads, const Body& body) {
     ErrorsOfThreads errors(of_rank.size());
-    parallel_tasks(static_cast<int>(of_rank.size()), threads, [&](int task) {
-      const auto k = static_cast<PatchHere>(task);
-      errors.keep(k, [&] { body(of_rank[k], k); });
+    const int most = std::min(threads, static_cast<int>(of_rank.size()));
+    parallel_pieces(of_rank.size(), most, [&](std::size_t first, std::size_t last, int) {
+      for (std::size_t k = first; k < last; ++k) errors.keep(k, [&] { body(of_rank[k], PatchHere{k}); });
     });
     errors.rethrow();
   }

@@ -25,15 +25,14 @@ void write_share(const LocalNodes& mine, std::size_t share, Record* sample) {
   }
 }
 
-std::vector<Point> places_to_count(const LocalNodes& mine, std::size_t nodes, std::size_t patches,
-                                   const Places& places) {
+BlockArray<Point> places_to_count(const LocalNodes& mine, std::size_t nodes, std::size_t patches,
+                                  const Places& places) {
   constexpr std::size_t kEnough = 8192;  // counted nodes a patch; more would hardly make patches more equal
   const std::size_t step = nodes / (kEnough * patches) + 1;
-  std::vector<Point> counted;
-  counted.reserve(mine.count / step + 1);
-  for (std::size_t first = 0; first < mine.count; first += step) {
-    const std::size_t choice = std::min(step, mine.count - first);
-    counted.push_back(places(mine.points[first + ((splitmix64(first) >> 32) * choice >> 32)]));
+  BlockArray<Point> counted((mine.count + step - 1) / step);
+  for (std::size_t k = 0; k < counted.size(); ++k) {
+    const std::size_t first = k * step, choice = std::min(step, mine.count - first);
+    counted[k] = places(mine.points[first + ((splitmix64(first) >> 32) * choice >> 32)]);
   }
   return counted;
 }
@@ -55,10 +54,10 @@ Partition partition_over_ranks(PartitionKind kind, int ranks, const std::vector<
   if (kind != PartitionKind::bisection) return Partition(kind, ranks, points, n);
   std::vector<Point> counted;
   for (RankNumber r = 0; r < size; ++r) {
-    const std::vector<Point> of_rank = places_to_count(nodes_of(r), n, size, Places(Lengths::as_given, 0));
-    counted.insert(counted.end(), of_rank.begin(), of_rank.end());
+    const BlockArray<Point> of_rank = places_to_count(nodes_of(r), n, size, Places(Lengths::as_given, 0));
+    counted.insert(counted.end(), of_rank.data(), of_rank.data() + of_rank.size());
   }
-  return Partition(Cuts::of_sample(ranks, points, std::move(counted)), points, n);
+  return Partition(Cuts::of_sample(ranks, points, counted), points, n);
 }
 
 }  // namespace pstripack

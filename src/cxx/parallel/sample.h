@@ -25,8 +25,8 @@ void write_share(const LocalNodes& mine, std::size_t share, Record* sample);
 
 /// The places of the nodes of this rank that are counted to move the cuts between patches: the same share on
 /// every rank.
-std::vector<Point> places_to_count(const LocalNodes& mine, std::size_t nodes, std::size_t patches,
-                                   const Places& places);
+BlockArray<Point> places_to_count(const LocalNodes& mine, std::size_t nodes, std::size_t patches,
+                                  const Places& places);
 
 /// How `ranks` ranks of one patch each share these nodes (of about length 1) if each has brought its slice
 /// of them, as in pool and comm mode: by boxes or stripes.

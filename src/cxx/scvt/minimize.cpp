@@ -47,7 +47,7 @@ class Minimizer {
         metric_(evaluator.ranks()) {
     // Allocate here what every step needs: the ranks must agree that all have the memory.
     evaluator_.allocate([this] {
-      parts_.resize(static_cast<std::size_t>(threads_for(n_)));
+      parts_.resize(static_cast<std::size_t>(most_threads_for(n_)));
       trial_.resize(n_);
       direction_.resize(n_);
       state_.pairs.reserve(kPairs + 1);

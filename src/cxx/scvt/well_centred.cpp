@@ -61,7 +61,7 @@ class Repairer {
       : evaluator_(evaluator), generators_(generators) {
     evaluator_.allocate([this] {
       given_ = best_ = next_ = generators_;
-      found_.resize(static_cast<std::size_t>(threads_for(10 * generators_.size())));
+      found_.resize(static_cast<std::size_t>(most_threads_for(10 * generators_.size())));
     });
   }
 

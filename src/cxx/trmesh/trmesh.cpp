@@ -82,7 +82,7 @@ class ByPatches {
     SingleProcess process;
     options_ = options_from_environment(n);
     options_.most_questions = n / 8;
-    if (cost_ != nullptr) cost_->threads = options_.threads;
+    if (cost_ != nullptr) cost_->set_threads({options_.threads, options_.thread_limit});
     const NodeArrays& nodes = call_.nodes;
     stars_ = {};
     stars_ = pstripack::triangulate<std::int32_t>({nodes, n}, check_, {nodes[0], nodes[1], nodes[2]},
@@ -123,8 +123,11 @@ TrmeshResult cold(const TrmeshCall& call, CallWay* way, ParallelCost* cost, Engi
   } catch (const PoolIsGone&) {
     // This process can carry out every call.
   }
-  return threads_for(static_cast<std::size_t>(call.n)) > 1 ? cold_by<ByPatches>(call, cost)
-                                                           : cold_by<ByOneHull>(call, cost);
+  const ParallelOptions options = options_from_environment(static_cast<std::size_t>(call.n));
+  if (options.patches > 1) return cold_by<ByPatches>(call, cost);
+  if (cost != nullptr) cost->set_threads({1, options.thread_limit});
+  const ChosenThreads one(1);  // the insertion uses one: it would fetch what another has sorted from its cache
+  return cold_by<ByOneHull>(call, cost);
 }
 
 /// Writes the lists as the original makes them, if they are the exact mesh (result.order `made`) or, under
@@ -208,6 +211,7 @@ TrmeshResult carry_out(const TrmeshCall& call, bool follow, CallWay* way, Engine
 }  // namespace
 
 TrmeshResult trmesh(const TrmeshCall& call, CallWay* way, Engine* communicator, Engine* pool) {
+  const AtWork here(1);
   const bool follow = original_rules().follow && !call.by_direction;
   return carry_out(call, follow, way, follow ? nullptr : communicator, follow ? nullptr : pool);
 }

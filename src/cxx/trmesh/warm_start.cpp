@@ -210,7 +210,7 @@ bool WarmStart::find_mesh(ParallelCost* cost) noexcept {
     if (fits) {
       cached.changes = ListChanges(cached);
       if (cost != nullptr) {
-        cost->threads = threads_for(n_);
+        cost->set_threads(thread_count(n_));
         cost->flips = has_moved ? static_cast<std::int64_t>(cached.mesh->flips()) : 0;
       }
       return true;

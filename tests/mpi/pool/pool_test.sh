@@ -318,12 +318,12 @@ report)
     pool sh -c '"$CALLER" calls 5000 1; "$CALLER" calls 50 1' > pool.out 2> pool.err || fail "exit code"
     [ $where = 1 ] && grep '^pstripack: ' pool.err > report
     [ "$(wc -l < report)" -eq 6 ] || fail "not six lines"
-    second='[0-9]+\.[0-9]{6}' line='pstripack: pool n=5000 ranks=2 threads=1 triangles=9996 boundary=0 ier=0'
+    second='[0-9]+\.[0-9]{6}' line='pstripack: pool n=5000 ranks=2 threads=1 of=[0-9]+ limit=[a-z]+ triangles=9996 boundary=0 ier=0'
     line="$line seconds=$second divide=$second/$second triangulate=$second/$second merge=$second/$second"
     line="$line lists=$second/$second gather=$second/$second rounds=[0-9]+ halo=[1-9][0-9]* bytes=[1-9][0-9]* start=cold"
     grep -qE "^$line\$" report || fail "the line of the pool"
     grep -qE "^pstripack: pool +1( +$second){7}\$" report || fail "the table"
-    grep -qE "^pstripack: threads n=50 ranks=1 threads=1 triangles=96 boundary=0 ier=0 " report ||
+    grep -qE "^pstripack: threads n=50 ranks=1 threads=1 of=[0-9]+ limit=[a-z]+ triangles=96 boundary=0 ier=0 " report ||
       fail "the line of the threads"
     rm report
   done

@@ -1,0 +1,15 @@
+#pragma once
+// What threads cost and gain where the user sets nothing.
+
+#include <string>
+
+namespace benchmark {
+
+/// Writes a table: TRMESH by default and on one thread, other nodes in each call, 20 ms between the calls, as
+/// in a model.
+void run_time_of_threads(const std::string& self, int repeats);
+
+/// Writes a table: the same where other ranks or programs need the processors, without a pause.
+void run_time_of_threads_on_busy_machine(const std::string& self, int repeats);
+
+}  // namespace benchmark
