@@ -5,6 +5,7 @@
 #include <omp.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <numeric>
@@ -354,6 +355,18 @@ TEST_F(EachAllocationOf, TheValidator) {
              0});
     }
   }
+  // Lists that are correct for other nodes: each thread finds a defect, whose text needs memory.
+  omp_set_num_threads(2);
+  Arrays<R8> a = triangulated<R8>(point_sets::make("random", 2500));
+  for (auto* const axis : {&a.x, &a.y, &a.z}) std::reverse(axis->begin(), axis->end());
+  fails({[&] {
+           char message[200];
+           return pstripack_validate(a.n, a.x.data(), a.y.data(), a.z.data(), a.list.data(), a.lptr.data(),
+                                     a.lend.data(), a.lnew[0], message, sizeof message);
+         },
+         {},
+         -6,
+         0});
 }
 
 TEST_F(EachAllocationOf, TheFingerprint) {
