@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <numeric>
@@ -15,6 +16,7 @@
 #include "capi/pstripack.h"
 #include "injection.h"
 #include "point_sets.h"
+#include "support/child.h"
 #include "support/lists.h"
 #include "support/moves.h"
 #include "support/stripack_calls.h"
@@ -435,6 +437,31 @@ TEST(Blocks, ThoseKeptAreGivenUpBeforeMemoryIsOut) {
     EXPECT_TRUE(FailingAllocation::happened());
   }
   pstripack::free_cached_blocks();
+}
+
+/// A static object whose destructor calls TRMESH. Made before the library's own objects, destroyed after
+/// them.
+struct Last {
+  ~Last() {
+    for (int i = 0; wanted != nullptr && i < 3; ++i)
+      if (wanted->trmesh().run() != 0) _exit(1);
+  }
+  Arrays<R8>* wanted = nullptr;
+} last;
+
+/// Those of static objects, and those of threads that go on.
+TEST(Blocks, ServeCallsWhileTheProgramEnds) {
+  Arrays<R8> a(point_sets::make("random", 20000)), b = a;
+  EXPECT_EQ(in_child([&]() -> int {
+              std::atomic<int> calls{0};
+              std::thread([&] {
+                for (const Call call = a.trmesh();; ++calls) call.run();
+              }).detach();
+              while (calls < 2) std::this_thread::yield();
+              last.wanted = &b;
+              std::exit(0);
+            }),
+            0);
 }
 
 }  // namespace
