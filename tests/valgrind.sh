@@ -1,6 +1,6 @@
 #!/bin/sh
-# Runs tests of a build under valgrind's memcheck: every routine of every library, the exact stages, changes of
-# triangulations, printing routines, and the fuzzing corpus. Fails on any error or memory leak.
+# Runs tests of a build under valgrind's memcheck: every routine of every library, the exact stages, warm
+# starts, changes of triangulations, printing routines, and the fuzzing corpus. Fails on any error or memory leak.
 # Usage: tests/valgrind.sh [BUILD]      BUILD: default build. Takes some 15 minutes.
 set -eu
 cd "$(dirname "$0")/.."
@@ -21,6 +21,7 @@ memcheck "$tests/cxx/edit_test"
 memcheck "$tests/cxx/listing_test"
 memcheck "$tests/cxx/plot_test" --gtest_filter='-*Ier_6*'  # runs out of memory, which ends a program under valgrind
 memcheck "$tests/cxx/mesh_test"
+memcheck "$tests/cxx/warm_start_test" --gtest_filter='*GoesOnWithEveryCall:*OthersInTurn'
 memcheck "$tests/cxx/delaunay_test" --gtest_filter='Memory*'
 for target in predicates kernel list_routines queries; do
   memcheck "$tests/fuzz/fuzz_$target" tests/fuzz/corpus/$target

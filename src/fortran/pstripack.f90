@@ -27,7 +27,7 @@ module pstripack
     pstripack_too_many_nodes = -4, &  !< 6n-11 does not fit 32 bits
     pstripack_bad_coordinate = -5, &  !< a coordinate is not finite, or a vector is zero
     pstripack_out_of_memory = -6, &
-    pstripack_bad_size = -100         !< arrays of different sizes, or too short; of this module alone
+    pstripack_bad_size = -100         !< arrays whose sizes do not fit; of the Fortran modules and of distributed meshes
 
   !> Further results of pstripack_scvt and pstripack_scvt_step.
   integer(c_int32_t), parameter :: &
@@ -211,20 +211,20 @@ module pstripack
     end function
 
     ! const char* pstripack_version(void);
-    function c_version() result(text) bind(c, name="pstripack_version")
+    pure function c_version() result(text) bind(c, name="pstripack_version")
       import :: c_ptr
       type(c_ptr) :: text
     end function
 
     ! const char* pstripack_strerror(int ier);
-    function c_strerror(ier) result(text) bind(c, name="pstripack_strerror")
+    pure function c_strerror(ier) result(text) bind(c, name="pstripack_strerror")
       import :: c_int32_t, c_ptr
       integer(c_int32_t), value, intent(in) :: ier
       type(c_ptr) :: text
     end function
 
     ! size_t strlen(const char*);
-    function c_strlen(text) result(length) bind(c, name="strlen")
+    pure function c_strlen(text) result(length) bind(c, name="strlen")
       import :: c_ptr, c_size_t
       type(c_ptr), value, intent(in) :: text
       integer(c_size_t) :: length
@@ -234,20 +234,16 @@ module pstripack
 contains
 
   !> The version "major.minor.patch" of the library that is loaded.
-  function pstripack_version() result(text)
-    character(len=:), allocatable :: text
-    text = fortran_text(c_version())
+  recursive function pstripack_version() result(text)
+    character(len=length_of_version()) :: text  ! gfortran keeps a deferred length where all threads share it
+    call copy_text(c_version(), text)
   end function
 
   !> One line for an error code.
-  function pstripack_strerror(ier) result(text)
+  recursive function pstripack_strerror(ier) result(text)
     integer(c_int32_t), intent(in) :: ier
-    character(len=:), allocatable :: text
-    if (ier == pstripack_bad_size) then
-      text = "arrays of different sizes, or too short"
-    else
-      text = fortran_text(c_strerror(ier))
-    end if
+    character(len=length_of_strerror(ier)) :: text
+    call copy_text(c_strerror(ier), text)
   end function
 
   !> 0 if the lists are a correct triangulation of the n = size(x) nodes, by exact signs; else the number (> 0) of the
@@ -255,7 +251,7 @@ contains
   !>   list, lptr, lend  (at least 6n-12, 6n-12, n), in: the lists
   !>   lnew              in: as from TRMESH, or 0 if not known
   !>   message           out: the defect and the nodes; blank if there is none
-  function pstripack_validate(x, y, z, list, lptr, lend, lnew, message) result(defect)
+  recursive function pstripack_validate(x, y, z, list, lptr, lend, lnew, message) result(defect)
     real(c_double), intent(in), contiguous :: x(:), y(:), z(:)
     integer(c_int32_t), intent(in), contiguous :: list(:), lptr(:), lend(:)
     integer(c_int32_t), intent(in) :: lnew
@@ -273,7 +269,7 @@ contains
 
   !> A hash of 64 bits that depends on the set of triangles alone; 0 if the lists are not well formed. The number of
   !> nodes is size(lend).
-  function pstripack_fingerprint(list, lptr, lend) result(bits)
+  recursive function pstripack_fingerprint(list, lptr, lend) result(bits)
     integer(c_int32_t), intent(in), contiguous :: list(:), lptr(:), lend(:)
     integer(c_int64_t) :: bits
     bits = c_fingerprint(size(lend, kind=c_int32_t), list, lptr, lend)
@@ -289,7 +285,7 @@ contains
   !>   progress  default: none
   !>   message   out: on an error, what is wrong, where, and what to do
   !> On an error nothing else is written. The result has the same bits for any number of threads.
-  subroutine pstripack_scvt(x, y, z, result, ier, density, options, progress, message)
+  recursive subroutine pstripack_scvt(x, y, z, result, ier, density, options, progress, message)
     real(c_double), intent(inout), contiguous :: x(:), y(:), z(:)
     type(pstripack_scvt_result), intent(inout) :: result
     integer(c_int32_t), intent(out) :: ier
@@ -308,7 +304,7 @@ contains
   !> The same for widths of cells in place of a density.
   !>   width         widths of cells, in any unit: n is size(x); pstripack_scvt_cells tells a good n
   !>   well_centred  true: in the end a few generators move, until all triangles hold their circumcentre strictly
-  subroutine pstripack_scvt_widths(x, y, z, result, ier, width, options, progress, well_centred, message)
+  recursive subroutine pstripack_scvt_widths(x, y, z, result, ier, width, options, progress, well_centred, message)
     real(c_double), intent(inout), contiguous :: x(:), y(:), z(:)
     type(pstripack_scvt_result), intent(inout) :: result
     integer(c_int32_t), intent(out) :: ier
@@ -328,7 +324,7 @@ contains
   end subroutine
 
   !> Calls the engine. The options say whether rho is a density or widths.
-  subroutine run_scvt(x, y, z, rho, options, result, ier, message)
+  recursive subroutine run_scvt(x, y, z, rho, options, result, ier, message)
     real(c_double), intent(inout), contiguous :: x(:), y(:), z(:)
     type(c_density), intent(in) :: rho
     type(c_options), intent(in) :: options
@@ -350,7 +346,7 @@ contains
   !>   cells    out: the integral of 1/(sqrt(3)/2 width**2), to about 1e-5 of itself; 1e-4 where widths jump
   !>   ier      out: pstripack_ok or a negative code above
   !>   message  as of pstripack_scvt
-  subroutine pstripack_scvt_cells(width, radius, cells, ier, message)
+  recursive subroutine pstripack_scvt_cells(width, radius, cells, ier, message)
     procedure(pstripack_density) :: width
     real(c_double), intent(in) :: radius
     real(c_double), intent(inout) :: cells
@@ -378,7 +374,7 @@ contains
   !>   density_on_threads  as the component of pstripack_scvt_options
   !>   message             as of pstripack_scvt
   !> On an error nothing else is written. The result has the same bits for any number of threads.
-  subroutine pstripack_scvt_step(x, y, z, list, lptr, lend, xc, yc, zc, mass, energy, ier, density, &
+  recursive subroutine pstripack_scvt_step(x, y, z, list, lptr, lend, xc, yc, zc, mass, energy, ier, density, &
                                  density_on_threads, message)
     real(c_double), intent(in), contiguous :: x(:), y(:), z(:)
     integer(c_int32_t), intent(in), contiguous :: list(:), lptr(:), lend(:)
@@ -411,7 +407,7 @@ contains
 
   include "scvt_procedures.inc"
 
-  subroutine trmesh_real64(x, y, z, list, lptr, lend, lnew, ier)
+  recursive subroutine trmesh_real64(x, y, z, list, lptr, lend, lnew, ier)
     real(c_double), intent(in), contiguous :: x(:), y(:), z(:)
     integer(c_int32_t), intent(inout), contiguous :: list(:), lptr(:), lend(:)
     integer(c_int32_t), intent(inout) :: lnew
@@ -424,7 +420,7 @@ contains
   !> The Delaunay triangulation of the directions of the nodes: arguments as of pstripack_trmesh, which takes
   !> coordinates as given where all lengths are 1 up to 1e-6. The two differ only where nodes are so close, or so nearly
   !> on one circle, that the rounding of lengths matters. Never collective.
-  subroutine pstripack_delaunay(x, y, z, list, lptr, lend, lnew, ier)
+  recursive subroutine pstripack_delaunay(x, y, z, list, lptr, lend, lnew, ier)
     real(c_double), intent(in), contiguous :: x(:), y(:), z(:)
     integer(c_int32_t), intent(inout), contiguous :: list(:), lptr(:), lend(:)
     integer(c_int32_t), intent(inout) :: lnew
@@ -434,7 +430,7 @@ contains
       ier = c_delaunay(size(x, kind=c_int32_t), x, y, z, list, lptr, lend, lnew)
   end subroutine
 
-  subroutine trmesh_real32(x, y, z, list, lptr, lend, lnew, ier)
+  recursive subroutine trmesh_real32(x, y, z, list, lptr, lend, lnew, ier)
     real(c_float), intent(in), contiguous :: x(:), y(:), z(:)
     integer(c_int32_t), intent(inout), contiguous :: list(:), lptr(:), lend(:)
     integer(c_int32_t), intent(inout) :: lnew
@@ -444,21 +440,29 @@ contains
       ier = c_trmesh_r4(size(x, kind=c_int32_t), x, y, z, list, lptr, lend, lnew)
   end subroutine
 
-  logical function sizes_fit(n, ny, nz, nlist, nlptr, nlend)
+  recursive logical function sizes_fit(n, ny, nz, nlist, nlptr, nlend)
     integer, intent(in) :: n, ny, nz, nlist, nlptr, nlend
     sizes_fit = ny == n .and. nz == n .and. nlend >= n .and. min(nlist, nlptr) >= 6*int(n, c_int64_t) - 12
   end function
 
-  function fortran_text(text) result(copy)
-    type(c_ptr), intent(in) :: text
-    character(len=:), allocatable :: copy
+  pure integer function length_of_version()
+    length_of_version = int(c_strlen(c_version()))
+  end function
+
+  pure integer function length_of_strerror(ier)
+    integer(c_int32_t), intent(in) :: ier
+    length_of_strerror = int(c_strlen(c_strerror(ier)))
+  end function
+
+  recursive subroutine copy_text(from, text)
+    type(c_ptr), intent(in) :: from
+    character(len=*), intent(out) :: text
     character(kind=c_char), pointer :: bytes(:)
     integer :: i
-    call c_f_pointer(text, bytes, [c_strlen(text)])
-    allocate (character(len=size(bytes)) :: copy)
-    do i = 1, size(bytes)
-      copy(i:i) = bytes(i)
+    call c_f_pointer(from, bytes, [len(text)])
+    do i = 1, len(text)
+      text(i:i) = bytes(i)
     end do
-  end function
+  end subroutine
 
 end module

@@ -20,8 +20,8 @@ module pstripack_mpi
   !> Results in addition to those of module pstripack.
   integer(c_int32_t), parameter :: &
     pstripack_empty_mesh = -3, &      !< the mesh has no triangulation, or was not created
-    pstripack_ranks_disagree = -7, &  !< the ranks of a collective call disagree in N, data or PSTRIPACK_ORDER
-    pstripack_bad_comm = -8, &        !< null, freed, an inter-communicator; no such rank; MPI not running
+    pstripack_ranks_disagree = -7, &  !< the ranks of a collective call disagree in N, data, PSTRIPACK_ORDER or root
+    pstripack_bad_comm = -8, &        !< null, freed, an inter-communicator; no such rank; MPI must not be called here
     pstripack_coincident = -9, &      !< two points in the same direction
     pstripack_bad_number = -10        !< a global number is below 1, occurs twice, or is not one of 1..N
 
@@ -191,7 +191,7 @@ module pstripack_mpi
 
 contains
 
-  subroutine set_comm_integer(comm, ier)
+  recursive subroutine set_comm_integer(comm, ier)
     integer, intent(in) :: comm
     integer(c_int32_t), intent(out), optional :: ier
     integer(c_int32_t) :: code
@@ -199,13 +199,13 @@ contains
     if (present(ier)) ier = code
   end subroutine
 
-  subroutine set_comm_f08(comm, ier)
+  recursive subroutine set_comm_f08(comm, ier)
     type(MPI_Comm), intent(in) :: comm
     integer(c_int32_t), intent(out), optional :: ier
     call set_comm_integer(comm%MPI_VAL, ier)
   end subroutine
 
-  subroutine create_integer(mesh, comm, ier)
+  recursive subroutine create_integer(mesh, comm, ier)
     class(pstripack_mesh), intent(inout) :: mesh
     integer, intent(in) :: comm
     integer(c_int32_t), intent(out) :: ier
@@ -213,7 +213,7 @@ contains
     ier = c_create(comm, mesh%handle)
   end subroutine
 
-  subroutine create_f08(mesh, comm, ier)
+  recursive subroutine create_f08(mesh, comm, ier)
     class(pstripack_mesh), intent(inout) :: mesh
     type(MPI_Comm), intent(in) :: comm
     integer(c_int32_t), intent(out) :: ier
@@ -223,26 +223,23 @@ contains
   !> Triangulates the points of all ranks together. Collective.
   !>   xyz     (3, n), in: vectors from the centre of the sphere to the points of this rank
   !>   number  (n), in: their global numbers, at least 1, each once over all ranks, in any order
-  !>   ier     out: 0, -1 (fewer than three points in all), -2 (all on one great circle), -4 (too many, or arrays of
-  !>           different sizes), -5 (not finite, or zero), -6 (out of memory), pstripack_coincident,
-  !>           pstripack_bad_number, or pstripack_empty_mesh (not created)
+  !>   ier     out: 0, -1 (fewer than three points in all), -2 (all on one great circle), -4 (too many), -5 (not
+  !>           finite, or zero), -6 (out of memory), pstripack_coincident, pstripack_bad_number, pstripack_bad_comm (MPI
+  !>           must not be called here), pstripack_empty_mesh (not created), or pstripack_bad_size of module pstripack
+  !>           (xyz is not (3, n); xyz(n, 3) with n = 3 cannot be recognised)
   !> After an error the mesh is empty.
-  subroutine triangulate(mesh, xyz, number, ier)
+  recursive subroutine triangulate(mesh, xyz, number, ier)
     class(pstripack_mesh), intent(inout) :: mesh
     real(c_double), intent(in), contiguous :: xyz(:, :)
     integer(c_int64_t), intent(in), contiguous :: number(:)
     integer(c_int32_t), intent(out) :: ier
-    integer(c_int64_t) :: n
     ier = pstripack_empty_mesh
-    if (.not. c_associated(mesh%handle)) return
-    n = size(number, kind=c_int64_t)
-    ! The library rejects this count on all ranks, so that all return the error.
-    if (size(xyz, 2, kind=c_int64_t) /= n .or. (n > 0 .and. size(xyz, 1) /= 3)) n = -1
-    ier = c_triangulate(mesh%handle, n, xyz, number)
+    if (c_associated(mesh%handle)) &
+      ier = c_triangulate(mesh%handle, count_or_shape(xyz, size(number, kind=c_int64_t)), xyz, number)
   end subroutine
 
   !> After ier = -5, -9, -10: the global numbers of the points that the error is about; 0 for none. Not collective.
-  subroutine error_points(mesh, first, second)
+  recursive subroutine error_points(mesh, first, second)
     class(pstripack_mesh), intent(in) :: mesh
     integer(c_int64_t), intent(out) :: first, second
     first = 0
@@ -252,7 +249,7 @@ contains
 
   !> The numbers, on this rank, of own points, entries of all stars, triangles whose smallest corner is an own point,
   !> and points of other ranks that are neighbours of own points. Not collective.
-  subroutine sizes(mesh, points, arcs, triangles, halo)
+  recursive subroutine sizes(mesh, points, arcs, triangles, halo)
     class(pstripack_mesh), intent(in) :: mesh
     integer(c_int64_t), intent(out) :: points, arcs, triangles, halo
     points = 0
@@ -265,7 +262,7 @@ contains
   !> The stars in global numbers: the neighbours of own point i are neighbour(begin(i) : begin(i+1)-1),
   !> counterclockwise, as in LIST. begin(points+1), neighbour(arcs). Not collective. Stops the program if an array is
   !> too short or the mesh was not created.
-  subroutine stars(mesh, begin, neighbour)
+  recursive subroutine stars(mesh, begin, neighbour)
     class(pstripack_mesh), intent(in) :: mesh
     integer(c_int64_t), intent(inout), contiguous :: begin(:), neighbour(:)
     integer(c_int64_t) :: points
@@ -276,22 +273,21 @@ contains
 
   !> Sets rank(i) to the rank (from 0) that should own the point xyz(:, i), so that each rank's points lie close
   !> together and all ranks have about the same number. Points that have been moved to these ranks keep them in later
-  !> calls, until some rank has an eighth more points than the average. ier: 0, pstripack_empty_mesh, -4 (arrays of
-  !> wrong sizes) or -5. Not collective.
-  subroutine home(mesh, xyz, rank, ier)
+  !> calls, until some rank has an eighth more points than the average. ier: 0, pstripack_empty_mesh, -5 or
+  !> pstripack_bad_size. Not collective.
+  recursive subroutine home(mesh, xyz, rank, ier)
     class(pstripack_mesh), intent(in) :: mesh
     real(c_double), intent(in), contiguous :: xyz(:, :)
     integer(c_int32_t), intent(inout), contiguous :: rank(:)
     integer(c_int32_t), intent(out) :: ier
-    ier = -3
-    if (.not. c_associated(mesh%handle)) return
-    ier = -4
-    if (size(xyz, 1) /= 3 .or. size(rank) < size(xyz, 2)) return
-    ier = c_home(mesh%handle, size(xyz, 2, kind=c_int64_t), xyz, rank)
+    integer(c_int64_t) :: n
+    n = min(size(xyz, 2, kind=c_int64_t), size(rank, kind=c_int64_t))
+    ier = pstripack_empty_mesh
+    if (c_associated(mesh%handle)) ier = c_home(mesh%handle, count_or_shape(xyz, n), xyz, rank)
   end subroutine
 
   !> The stars in local numbers: own points 1..points, then the points of the halo. Else as `stars`. ier: 0.
-  subroutine local_stars(mesh, begin, neighbour, ier)
+  recursive subroutine local_stars(mesh, begin, neighbour, ier)
     class(pstripack_mesh), intent(in) :: mesh
     integer(c_int64_t), intent(inout), contiguous :: begin(:)
     integer(c_int32_t), intent(inout), contiguous :: neighbour(:)
@@ -304,7 +300,7 @@ contains
 
   !> The triangles whose smallest corner is a point of this rank: corner(3, triangles), global numbers,
   !> counterclockwise, the smallest first. Not collective. Stops the program if the array is too short.
-  subroutine triangles(mesh, corner)
+  recursive subroutine triangles(mesh, corner)
     class(pstripack_mesh), intent(in) :: mesh
     integer(c_int64_t), intent(inout), contiguous :: corner(:, :)
     integer(c_int64_t) :: points, arcs, count, halo
@@ -315,7 +311,7 @@ contains
 
   !> The halo: points of other ranks that are neighbours of own points, by increasing number: number(halo),
   !> xyz(3, halo). Not collective. Stops the program if an array is too short.
-  subroutine halo(mesh, number, xyz)
+  recursive subroutine halo(mesh, number, xyz)
     class(pstripack_mesh), intent(in) :: mesh
     integer(c_int64_t), intent(inout), contiguous :: number(:)
     real(c_double), intent(inout), contiguous :: xyz(:, :)
@@ -329,7 +325,7 @@ contains
   !> Who has each halo point, in the order of `halo`: rank(halo), from 0, has it as its own point local(halo), from 1,
   !> as passed in there. So ranks exchange values of their points without a search. Not collective. Stops the program
   !> if an array is too short.
-  subroutine halo_owners(mesh, rank, local)
+  recursive subroutine halo_owners(mesh, rank, local)
     class(pstripack_mesh), intent(in) :: mesh
     integer(c_int32_t), intent(inout), contiguous :: rank(:), local(:)
     integer(c_int64_t) :: points, arcs, triangles, count
@@ -342,8 +338,9 @@ contains
   !> Gathers the lists of the whole mesh, as TRMESH returns them, on rank `root` (from 0), or on all ranks if root is
   !> pstripack_every_rank. The global numbers must be 1..N, N the number of all points. list, lptr (6N-12), lend (N)
   !> and lnew are written on these ranks only; their sizes are not checked. ier: 0, pstripack_empty_mesh, -4 (6N-11
-  !> does not fit 32 bits), -6, pstripack_bad_comm (no such rank) or pstripack_bad_number. Collective.
-  subroutine gather(mesh, root, list, lptr, lend, lnew, ier)
+  !> does not fit 32 bits), -6, pstripack_ranks_disagree (in root), pstripack_bad_comm (no such rank) or
+  !> pstripack_bad_number. Collective.
+  recursive subroutine gather(mesh, root, list, lptr, lend, lnew, ier)
     class(pstripack_mesh), intent(inout) :: mesh
     integer(c_int32_t), intent(in) :: root
     integer(c_int32_t), intent(inout), contiguous :: list(:), lptr(:), lend(:)
@@ -358,14 +355,14 @@ contains
   !>   xyz, number  as in triangulate; xyz in: the generators to start from, vectors of any length; out: the generators
   !>                found, unit vectors
   !>   result       out: the same on every rank, except generators, which is size(number)
-  !>   ier          out: 0, whatever the reason to end; -1 (fewer than four generators in all), -4 (too many, or arrays
-  !>                of different sizes), -5, -6, pstripack_coincident, pstripack_bad_number, or a code of
-  !>                pstripack_scvt; the same on every rank, as is the message. After an error nothing else is written
+  !>   ier          out: 0, whatever the reason to end; -1 (fewer than four generators in all), -4 (too many), -5, -6,
+  !>                pstripack_coincident, pstripack_bad_number, pstripack_bad_comm, or a code of pstripack_scvt; the same
+  !>                on every rank, as is the message. After an error nothing else is written
   !>   density      the same on every rank, called for places near the rank's generators; default: 1 everywhere
   !>   options      those of rank 0 are used on all ranks, except density_on_threads; start and seed have no effect
   !>   progress     called on rank 0 only
   !> Afterwards the mesh is that of the generators; after an error it is empty.
-  subroutine scvt(mesh, xyz, number, result, ier, density, options, progress, message)
+  recursive subroutine scvt(mesh, xyz, number, result, ier, density, options, progress, message)
     class(pstripack_mesh), intent(inout) :: mesh
     real(c_double), intent(inout), contiguous :: xyz(:, :)
     integer(c_int64_t), intent(in), contiguous :: number(:)
@@ -379,21 +376,19 @@ contains
     type(c_density) :: rho
     type(c_options) :: options_c
     character(kind=c_char) :: line(400)
-    integer(c_int64_t) :: n
 
     line = c_null_char
     ier = pstripack_empty_mesh
     if (c_associated(mesh%handle)) then
       call pass_on(caller, rho, options_c, density, options, progress)
-      n = size(number, kind=c_int64_t)
-      if (size(xyz, 2, kind=c_int64_t) /= n .or. (n > 0 .and. size(xyz, 1) /= 3)) n = -1  ! as in triangulate
-      ier = c_scvt(mesh%handle, n, xyz, number, rho, options_c, result, line, size(line, kind=c_int32_t))
+      ier = c_scvt(mesh%handle, count_or_shape(xyz, size(number, kind=c_int64_t)), xyz, number, rho, options_c, result, &
+                   line, size(line, kind=c_int32_t))
     end if
     call tell(line, message)
   end subroutine
 
   !> Frees the mesh. Collective, unless MPI is finalised already. May be called again.
-  subroutine free_mesh(mesh)
+  recursive subroutine free_mesh(mesh)
     class(pstripack_mesh), intent(inout) :: mesh
     if (c_associated(mesh%handle)) call c_free(mesh%handle)
     mesh%handle = c_null_ptr
@@ -404,15 +399,27 @@ contains
     call mesh%free()
   end subroutine
 
-  subroutine do_not_copy(to, from)
+  recursive subroutine do_not_copy(to, from)
     class(pstripack_mesh), intent(inout) :: to
     class(pstripack_mesh), intent(in) :: from
     if (c_associated(to%handle, from%handle)) return
     error stop "pstripack_mesh: a mesh cannot be copied"
   end subroutine
 
+  !> n, if xyz is xyz(3, n); else a number below 0 by which the C API knows the shape of xyz, rejects it on all ranks,
+  !> and tells it (text_of_count in pstripack_mpi.cpp).
+  recursive integer(c_int64_t) function count_or_shape(xyz, n)
+    real(c_double), intent(in) :: xyz(:, :)
+    integer(c_int64_t), intent(in) :: n
+    integer(c_int64_t), parameter :: most = huge(1_c_int32_t)
+    count_or_shape = n
+    if (size(xyz, 2, kind=c_int64_t) /= n .or. (n > 0 .and. size(xyz, 1) /= 3)) &
+      count_or_shape = -1 - (min(size(xyz, 1, kind=c_int64_t) + 1, most)*(most + 1) + &
+                             min(size(xyz, 2, kind=c_int64_t), most))
+  end function
+
   !> The number of own points, if arrays of these sizes have room for the stars.
-  integer(c_int64_t) function points_if_room(mesh, begin, neighbour) result(points)
+  recursive integer(c_int64_t) function points_if_room(mesh, begin, neighbour) result(points)
     class(pstripack_mesh), intent(in) :: mesh
     integer(c_int64_t), intent(in) :: begin, neighbour
     integer(c_int64_t) :: arcs, triangles, halo

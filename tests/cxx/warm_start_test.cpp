@@ -624,20 +624,27 @@ TEST(WarmStart, KeepsNothingThatNoCallCanBeginWith) {
   EXPECT_TRUE(forget_last_meshes());
 }
 
-TEST(WarmStart, KeepsNothingWhereItIsOff) {
-  const char* const value = std::getenv("PSTRIPACK_WARM_START");
-  if (value != nullptr && value == std::string("0")) {
-    for (int i = 0; i < 3; ++i) EXPECT_FALSE(call(make("random", kN, 1)).is_warm);
-    EXPECT_FALSE(forget_last_meshes());
+TEST(WarmStart, KeepsNothingWhereItIsOffAndNamesOtherValues) {
+  if (std::getenv("IN_CHILD") != nullptr) {
+    const bool is_off = std::getenv("PSTRIPACK_WARM_START") == std::string("0");
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(call(make("random", kN, 1)).is_warm, i == 2 && !is_off);
+    EXPECT_NE(forget_last_meshes(), is_off);
     return;
   }
-  EXPECT_EQ(in_child([] {
-              setenv("PSTRIPACK_WARM_START", "0", 1);
-              execl("/proc/self/exe", "warm_start_test", "--gtest_filter=WarmStart.KeepsNothingWhereItIsOff",
-                    nullptr);
-              return 1;
-            }),
-            0);
+  for (const char* const value : {"0", "1", "", "00", "off"}) {
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(in_child([=] {
+                setenv("IN_CHILD", "1", 1);
+                setenv("PSTRIPACK_WARM_START", value, 1);
+                execl("/proc/self/exe", "warm_start_test", "--gtest_filter=*WhereItIsOffAndNamesOtherValues",
+                      nullptr);
+                return 1;
+              }),
+              0);
+    const std::string name = value;
+    EXPECT_EQ(testing::internal::GetCapturedStderr(),
+              name.size() < 2 ? "" : "pstripack: PSTRIPACK_WARM_START=" + name + ": not 0 or 1; 1 is used\n");
+  }
 }
 
 /// The meshes of four first callers do not prevent those of four others from being kept.

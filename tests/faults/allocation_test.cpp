@@ -5,6 +5,8 @@
 #include <omp.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <numeric>
@@ -14,6 +16,7 @@
 #include "capi/pstripack.h"
 #include "injection.h"
 #include "point_sets.h"
+#include "support/child.h"
 #include "support/lists.h"
 #include "support/moves.h"
 #include "support/stripack_calls.h"
@@ -354,6 +357,18 @@ TEST_F(EachAllocationOf, TheValidator) {
              0});
     }
   }
+  // Lists that are correct for other nodes: each thread finds a defect, whose text needs memory.
+  omp_set_num_threads(2);
+  Arrays<R8> a = triangulated<R8>(point_sets::make("random", 2500));
+  for (auto* const axis : {&a.x, &a.y, &a.z}) std::reverse(axis->begin(), axis->end());
+  fails({[&] {
+           char message[200];
+           return pstripack_validate(a.n, a.x.data(), a.y.data(), a.z.data(), a.list.data(), a.lptr.data(),
+                                     a.lend.data(), a.lnew[0], message, sizeof message);
+         },
+         {},
+         -6,
+         0});
 }
 
 TEST_F(EachAllocationOf, TheFingerprint) {
@@ -422,6 +437,31 @@ TEST(Blocks, ThoseKeptAreGivenUpBeforeMemoryIsOut) {
     EXPECT_TRUE(FailingAllocation::happened());
   }
   pstripack::free_cached_blocks();
+}
+
+/// A static object whose destructor calls TRMESH. Made before the library's own objects, destroyed after
+/// them.
+struct Last {
+  ~Last() {
+    for (int i = 0; wanted != nullptr && i < 3; ++i)
+      if (wanted->trmesh().run() != 0) _exit(1);
+  }
+  Arrays<R8>* wanted = nullptr;
+} last;
+
+/// Those of static objects, and those of threads that go on.
+TEST(Blocks, ServeCallsWhileTheProgramEnds) {
+  Arrays<R8> a(point_sets::make("random", 20000)), b = a;
+  EXPECT_EQ(in_child([&]() -> int {
+              std::atomic<int> calls{0};
+              std::thread([&] {
+                for (const Call call = a.trmesh();; ++calls) call.run();
+              }).detach();
+              while (calls < 2) std::this_thread::yield();
+              last.wanted = &b;
+              std::exit(0);
+            }),
+            0);
 }
 
 }  // namespace

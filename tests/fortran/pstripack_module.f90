@@ -50,4 +50,55 @@ program pstripack_module
   call expect(pstripack_validate(x, y, z, list, lptr, lend(2:), lnew) == pstripack_bad_size, "lend too short")
   call pstripack_trmesh(x(:2), y(:2), z(:2), list, lptr, lend, lnew, ier)
   call expect(ier == pstripack_too_few_nodes, "two nodes")
+  call threads_at_once
+
+contains
+
+  !> Each thread gets the texts of its own codes and its own density.
+  recursive subroutine threads_at_once
+    real(c_double), parameter :: whole = 4*acos(-1.0_c_double)
+    character(len=100) :: texts(0:14)
+    integer :: wrong, i
+    do i = 0, 14
+      texts(i) = pstripack_strerror(int(-i, c_int32_t))
+    end do
+    call pstripack_trmesh(x, y, z, list, lptr, lend, lnew, ier)
+    wrong = 0
+    !$omp parallel do num_threads(4) schedule(dynamic) reduction(+:wrong)
+    do i = 1, 40000
+      if (pstripack_strerror(int(-mod(i, 15), c_int32_t)) /= texts(mod(i, 15))) wrong = wrong + 1
+      if (mod(i, 100) == 0) then
+        if (abs(mass_of(i/100) - whole*merge(2, 1, mod(i/100, 2) == 0)) > 1e-6_c_double) wrong = wrong + 1
+      end if
+    end do
+    call expect(wrong == 0, "threads share nothing")
+  end subroutine
+
+  recursive real(c_double) function mass_of(k)
+    integer, intent(in) :: k
+    real(c_double), allocatable :: c(:, :)
+    real(c_double) :: energy
+    integer(c_int32_t) :: code
+    allocate (c(n, 4))
+    if (mod(k, 2) == 0) then
+      call pstripack_scvt_step(x, y, z, list, lptr, lend, c(:, 1), c(:, 2), c(:, 3), c(:, 4), energy, code, two)
+    else
+      call pstripack_scvt_step(x, y, z, list, lptr, lend, c(:, 1), c(:, 2), c(:, 3), c(:, 4), energy, code, one)
+    end if
+    mass_of = merge(sum(c(:, 4)), -1.0_c_double, code == 0)
+  end function
+
+  recursive subroutine one(m, xyz, values)
+    integer(c_int32_t), intent(in) :: m
+    real(c_double), intent(in) :: xyz(3, m)
+    real(c_double), intent(out) :: values(m)
+    values = 1 + 0*xyz(1, :)
+  end subroutine
+
+  recursive subroutine two(m, xyz, values)
+    integer(c_int32_t), intent(in) :: m
+    real(c_double), intent(in) :: xyz(3, m)
+    real(c_double), intent(out) :: values(m)
+    values = 2 + 0*xyz(1, :)
+  end subroutine
 end program

@@ -63,7 +63,7 @@ contains
   subroutine use_mesh
     type(pstripack_mesh) :: mesh  ! freed at the end
     integer(int64), allocatable :: number(:), begin(:), neighbour(:), corner(:, :), halo_number(:), local_begin(:)
-    integer(int32), allocatable :: local(:), owner(:), place(:)
+    integer(int32), allocatable :: local(:), owner(:), place(:), near(:)
     real(real64), allocatable :: halo_xyz(:, :)
     integer(int32) :: list2(6*n - 12), lptr2(6*n - 12), lend2(n), lnew2
     integer(int64) :: points, arcs, triangles, halo, k, first, second, total
@@ -109,7 +109,22 @@ contains
     call mesh%error_points(first, second)
     if (ier /= pstripack_bad_number .or. first /= 2 .or. second /= 0) error stop "a number that occurs twice"
     call mesh%triangulate(all(:, :points), number(2:), ier)
-    if (ier /= pstripack_too_many_nodes) error stop "arrays of different sizes"
+    if (ier /= pstripack_bad_size) error stop "arrays of different sizes"
+    ! The commonest slip, on the last rank alone.
+    halo_xyz = all(:, :points)
+    if (rank == size_of_world - 1) halo_xyz = transpose(halo_xyz)
+    call mesh%triangulate(halo_xyz, number, ier)
+    if (ier /= pstripack_bad_size) error stop "xyz(n, 3)"
+    number = [(int(k, int64), k=rank + 1, n, size_of_world)]
+    call mesh%triangulate(all(:, int(number)), number, ier)
+    if (ier /= 0) error stop "triangulate again"
+    allocate (near(points))
+    call mesh%home(all(:, :points), near, ier)
+    if (ier /= 0) error stop "home"
+    call mesh%home(transpose(all(:, :points)), near, ier)
+    if (ier /= pstripack_bad_size) error stop "home of xyz(n, 3)"
+    call mesh%home(all(:, :points), near(2:), ier)
+    if (ier /= pstripack_bad_size) error stop "home: rank too short"
     call mesh%free()
     call mesh%free()
     call mesh%triangulate(all(:, :0), number(:0), ier)
@@ -123,7 +138,7 @@ contains
     integer(int64), allocatable :: number(:)
     real(real64), allocatable :: xyz(:, :)
     real(real64) :: x(n), y(n), z(n)
-    character(len=100) :: message
+    character(len=100) :: message, expected_message
     integer :: k
 
     options%start = pstripack_scvt_given
@@ -155,6 +170,11 @@ contains
     call mesh%scvt(xyz, number, found, ier, negative, options, message=message)
     if (ier /= pstripack_bad_density .or. index(message, "the density is -") /= 1) error stop "a bad density"
     call mesh%scvt(xyz, number(2:), found, ier)
-    if (ier /= pstripack_too_many_nodes) error stop "arrays of different sizes"
+    if (ier /= pstripack_bad_size) error stop "arrays of different sizes"
+    xyz = transpose(xyz)
+    call mesh%scvt(xyz, number, found, ier, message=message)
+    write (expected_message, "(a,i0,a)") "rank 0: xyz is (", (n + size_of_world - 1)/size_of_world, &
+      ",3): must be (3,n), n the size of number"
+    if (ier /= pstripack_bad_size .or. message /= expected_message) error stop "scvt of xyz(n, 3)"
   end subroutine
 end program

@@ -8,11 +8,15 @@
 #include <map>
 #include <set>
 #include <string>
+#include <thread>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "capi/pstripack_mpi.h"
 #include "mpi_test.h"
 #include "point_sets.h"
+#include "support/child.h"
 #include "support/environment.h"
 #include "support/expect.h"
 #include "support/trmesh.h"
@@ -395,13 +399,88 @@ TEST(DistributedMesh, WritesALineOfEachNewCode) {
   expect_line(nodes, from_one, "point 21: a coordinate is not finite, or all are zero (IER = -5)");
 }
 
-TEST(DistributedMesh, RefusesCountsThatCannotBe) {
+TEST(DistributedMesh, RefusesCountsThatCannotBeAndNamesTheRank) {
   OfMesh mesh;
-  for (const std::int64_t n : {std::int64_t{-1}, std::int64_t{1} << 29}) {
-    const bool odd_one_out = rank_of() == size_of() - 1;
-    EXPECT_EQ(pstripack_mesh_triangulate(mesh, odd_one_out ? n : 0, nullptr, nullptr),
-              PSTRIPACK_TOO_MANY_NODES);
+  const int odd = size_of() - 1;
+  const std::string rank = "pstripack: mesh_triangulate: rank " + std::to_string(odd) + ": n = ";
+  const std::tuple<std::int64_t, std::int32_t, std::string> cases[] = {
+      {-7, PSTRIPACK_BAD_SIZE, "-7 is below 0 (IER = -100)\n"},
+      {std::int64_t{1} << 29, PSTRIPACK_TOO_MANY_NODES,
+       "536870912: a rank may have at most 536870911 points (IER = -4)\n"}};
+  for (const auto& [n, code, line] : cases) {
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(pstripack_mesh_triangulate(mesh, rank_of() == odd ? n : 0, nullptr, nullptr), code);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), rank_of() == 0 ? rank + line : "");
   }
+  const Nodes nodes = point_sets::make("random", 30);
+  ASSERT_EQ(triangulate(mesh, nodes, nodes_here(distributions()[0], nodes.size()), from_one), 0);
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(pstripack_mesh_home(mesh, -1, nullptr, nullptr), PSTRIPACK_BAD_SIZE);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "pstripack: mesh_home: rank " + std::to_string(rank_of()) + ": n = -1 is below 0 (IER = -100)\n");
+}
+
+TEST(DistributedMesh, GatherRefusesRootsThatDiffer) {
+  OfMesh mesh;
+  const Nodes nodes = point_sets::make("random", 30);
+  ASSERT_EQ(triangulate(mesh, nodes, nodes_here(distributions()[0], nodes.size()), from_one), 0);
+  if (size_of() == 1) return;
+  Mesh m = trmesh(nodes);
+  const int odd = size_of() - 1;
+  for (const auto& [there, here] : {std::pair{0, -1}, {-1, 0}, {0, odd}, {odd, 0}, {0, size_of() + 2}}) {
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(pstripack_mesh_gather(mesh, rank_of() == odd ? here : there, m.list.data(), m.lptr.data(),
+                                    m.lend.data(), &m.lnew),
+              PSTRIPACK_RANKS_DISAGREE);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(),
+              rank_of() == 0
+                  ? "pstripack: mesh_gather: root is " + std::to_string(there) + " on rank 0 and " +
+                        std::to_string(here) + " on rank " + std::to_string(odd) + " (IER = -7)\n"
+                  : "");
+  }
+  EXPECT_TRUE(m == trmesh(nodes));
+  EXPECT_EQ(pstripack_mesh_gather(mesh, -1, m.list.data(), m.lptr.data(), m.lend.data(), &m.lnew), 0);
+}
+
+/// True if each collective call of the mesh returns -8, with a line, and changes nothing.
+bool declines(pstripack_mesh* mesh) {
+  testing::internal::CaptureStderr();
+  char message[100] = "";
+  const bool all =
+      pstripack_mesh_triangulate(mesh, 0, nullptr, nullptr) == PSTRIPACK_BAD_COMM &&
+      pstripack_mesh_gather(mesh, -1, nullptr, nullptr, nullptr, nullptr) == PSTRIPACK_BAD_COMM &&
+      pstripack_mesh_scvt(mesh, 0, nullptr, nullptr, nullptr, nullptr, nullptr, message, sizeof message) ==
+          PSTRIPACK_BAD_COMM;
+  const std::string why = "MPI is not running, or must not be called by this thread or process";
+  return testing::internal::GetCapturedStderr() == "pstripack: mesh_triangulate: " + why +
+                                                       " (IER = -8)\npstripack: mesh_gather: " + why +
+                                                       " (IER = -8)\n" &&
+         message == why && all;
+}
+
+TEST(DistributedMesh, DeclinesCallsOfThreadsAndForkedChildrenThatMustNotCallMpi) {
+  OfMesh mesh;
+  const Nodes nodes = point_sets::make("random", 30);
+  const auto mine = nodes_here(distributions()[0], nodes.size());
+  ASSERT_EQ(triangulate(mesh, nodes, mine, from_one), 0);
+  EXPECT_EQ(in_child([&] {
+              if (!declines(mesh)) return 1;
+              pstripack_mesh_free(mesh);
+              return 0;
+            }),
+            0);
+  int provided;
+  MPI_Query_thread(&provided);
+  if (provided < MPI_THREAD_SERIALIZED)
+    std::thread([&] {
+      EXPECT_TRUE(declines(mesh));
+      pstripack_mesh_free(mesh);
+      pstripack_mesh* other;
+      EXPECT_EQ(pstripack_mesh_create(MPI_COMM_WORLD, &other), PSTRIPACK_BAD_COMM);
+      EXPECT_EQ(pstripack_set_comm(MPI_COMM_WORLD), PSTRIPACK_BAD_COMM);
+    }).join();
+  ASSERT_EQ(pstripack_mesh_gather(mesh, -2, nullptr, nullptr, nullptr, nullptr), PSTRIPACK_BAD_COMM);
+  EXPECT_EQ(triangulate(mesh, nodes, mine, from_one), 0);
 }
 
 TEST(DistributedMesh, GatherRefusesRanksThatDoNotExist) {
@@ -434,6 +513,7 @@ pstripack_mesh* outlives_mpi = nullptr;
 int main(int argc, char** argv) {
   const int code =
       run_on_every_rank(argc, argv, [] { pstripack_mesh_create(MPI_COMM_WORLD, &outlives_mpi); });
+  if (!declines(outlives_mpi)) return 2;
   pstripack_mesh_free(outlives_mpi);
   return code;
 }

@@ -389,8 +389,11 @@ TEST(DistributedScvt, ACountOfOneRankIsRefusedOnAll) {
     const std::vector<double> before = run.xyz;
     EXPECT_EQ(pstripack_mesh_scvt(run.mesh, n, run.xyz.data(), run.number.data(), nullptr, nullptr,
                                   &run.result, run.message, sizeof run.message),
-              PSTRIPACK_TOO_MANY_NODES);
-    EXPECT_EQ(std::string(run.message), pstripack_strerror(PSTRIPACK_TOO_MANY_NODES));
+              count < 0 ? PSTRIPACK_BAD_SIZE : PSTRIPACK_TOO_MANY_NODES);
+    EXPECT_EQ(std::string(run.message),
+              "rank " + std::to_string(size_of() - 1) +
+                  (count < 0 ? ": n = -1 is below 0"
+                             : ": n = 536870912: a rank may have at most 536870911 points"));
     EXPECT_EQ(run.xyz, before);
   }
 }

@@ -128,12 +128,16 @@ std::vector<Point> gradients(const Triangulated& mesh, const std::vector<double>
                  u * tangent[0].z + v * tangent[1].z};
   };
   std::vector<Point> result(values.size());
-  pstripack::parallel_pieces(result.size(), pstripack::threads_for(100 * result.size()),
-                             [&](std::size_t first, std::size_t last, int) {
-                               Around around;
-                               for (std::size_t i = first; i < last; ++i)
-                                 result[i] = gradient(static_cast<std::int32_t>(i) + 1, around);
-                             });
+  const int threads = pstripack::threads_for(100 * result.size());
+  pstripack::ErrorsOfThreads errors(static_cast<std::size_t>(threads));
+  pstripack::parallel_pieces(result.size(), threads, [&](std::size_t first, std::size_t last, int piece) {
+    errors.keep(static_cast<std::size_t>(piece), [&] {
+      Around around;
+      for (std::size_t i = first; i < last; ++i)
+        result[i] = gradient(static_cast<std::int32_t>(i) + 1, around);
+    });
+  });
+  errors.rethrow();
   return result;
 }
 

@@ -64,12 +64,15 @@ std::vector<double> areas_of_cells(pstripack::Communicator& ranks, const Neighbo
       known = std::max(known, static_cast<std::size_t>(nodes.stars.neighbour[s]));
     directions.emplace(nodes.points, known);
     areas.resize(own);
-    pstripack::parallel_pieces(own, pstripack::threads_for(10 * own),
-                               [&](std::size_t first, std::size_t last, int) {
-                                 std::vector<Direction> ring;
-                                 for (std::size_t i = first; i < last; ++i)
-                                   areas[i] = area_of_cell(nodes, *directions, i, ring);
-                               });
+    const int threads = pstripack::threads_for(10 * own);
+    pstripack::ErrorsOfThreads errors(static_cast<std::size_t>(threads));
+    pstripack::parallel_pieces(own, threads, [&](std::size_t first, std::size_t last, int piece) {
+      errors.keep(static_cast<std::size_t>(piece), [&] {
+        std::vector<Direction> ring;
+        for (std::size_t i = first; i < last; ++i) areas[i] = area_of_cell(nodes, *directions, i, ring);
+      });
+    });
+    errors.rethrow();
     const std::vector<std::int32_t> ranks_of_others =
         pstripack::scvt::ranks_of_slices(ranks, all, {nodes.numbers + own, nodes.numbers + known});
     told.resize(static_cast<std::size_t>(ranks.size()));

@@ -9,14 +9,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <functional>
 #include <utility>
 
 #include "files/measures.h"
 #include "geometry/measures.h"
 #include "methods/gradients.h"
+#include "methods/quality.h"
 #include "methods/triangulated_nodes.h"
 #include "point_sets.h"
 #include "stripack/list_queries.h"
+#include "support/failing_allocation.h"
 
 namespace methods {
 namespace {
@@ -434,6 +438,31 @@ TEST(values, are_the_same_bits_on_any_number_of_threads) {
     }
     EXPECT_EQ(all[0], all[1]);
     EXPECT_EQ(all[0], all[2]);
+  }
+}
+#endif
+
+#ifdef _OPENMP
+TEST(memory, that_runs_out_on_threads_is_an_exception) {
+  omp_set_num_threads(2);
+  const files::Mesh mesh = files::triangulate(point_sets::make("random", 2500));
+  const Interpolation in = interpolation_between(point_sets::make("random", 2500));
+  const Points at = places(2500, 3);
+  const std::vector<double> values = random_values(2500);
+  const std::function<void()> each[] = {
+      [&] { quality_of(mesh); },
+      [&] { in.values_at(at, values, Method::cubic, Interpolation::Outside::nearest); },
+      [&] { in.weights_at(at, Method::natural, Interpolation::Outside::nearest); }};
+  for (const auto& work : each) {
+    bool failed = true;
+    for (long which = 1; failed; which += 1 + which / 16) {
+      const FailingAllocation memory(which, true);
+      try {
+        work();
+      } catch (const std::exception&) {  // std::bad_alloc; of ranks AgreedFailure
+      }
+      failed = FailingAllocation::happened();
+    }
   }
 }
 #endif

@@ -28,8 +28,15 @@ const std::size_t most_cached = std::max(std::size_t{1} << 30, half_of_memory())
 const std::size_t most_cached = std::size_t{1} << 30;
 #endif
 
-constexpr std::size_t kCount = 16;     // number of cached blocks; a call on threads uses five
-Buffer<unsigned char> cached[kCount];  // between two calls, the newest first
+constexpr std::size_t kCount = 16;  // number of cached blocks; a call on threads uses five
+/// The blocks between two calls, the newest first. Never destroyed: destructors of static objects and other
+/// threads may call while the program ends.
+union NeverDestroyed {
+  constexpr NeverDestroyed() : block() {}
+  ~NeverDestroyed() {}
+  Buffer<unsigned char> block[kCount];
+} cache;
+Buffer<unsigned char> (&cached)[kCount] = cache.block;
 /// Bytes registered by reserve_cache(). They count towards most_cached. The system cannot take their pages
 /// back, so at most a quarter of most_cached is allowed.
 std::atomic<std::size_t> reserved{0};

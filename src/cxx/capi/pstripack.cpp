@@ -164,13 +164,16 @@ const char* pstripack_strerror(int ier) {
     case PSTRIPACK_OUT_OF_MEMORY:
       return "out of memory";
     case PSTRIPACK_RANKS_DISAGREE:
-      return "the ranks of a collective call disagree in N, in the coordinates or in PSTRIPACK_ORDER";
+      return "the ranks of a collective call disagree in N, in the coordinates, in PSTRIPACK_ORDER or in "
+             "root";
     case PSTRIPACK_BAD_COMM:
       return "not a communicator that can be used: null, freed, an inter-communicator, or MPI is not running";
     case PSTRIPACK_COINCIDENT:
       return "two points lie in the same direction";
     case PSTRIPACK_BAD_NUMBER:
       return "a global number is below 1, occurs twice, or is too large for what was asked";
+    case PSTRIPACK_BAD_SIZE:
+      return "arrays of different sizes, or too short, or a size below 0";
     case PSTRIPACK_BAD_DENSITY:
       return "the density is not positive, or not finite, at some place";
     case PSTRIPACK_HEMISPHERE:

@@ -32,10 +32,12 @@ enum {
   PSTRIPACK_BAD_COORDINATE = -5, /* a coordinate is not finite, or a vector is zero */
   PSTRIPACK_OUT_OF_MEMORY = -6,
   /* Only in programs that use pstripack_mpi.h: */
-  PSTRIPACK_RANKS_DISAGREE = -7, /* the ranks of a collective call disagree in n, data or PSTRIPACK_ORDER */
-  PSTRIPACK_BAD_COMM = -8,       /* no usable communicator, or no such rank; MPI not running */
-  PSTRIPACK_COINCIDENT = -9,     /* distributed, scvt: two points in the same direction, or nearly */
-  PSTRIPACK_BAD_NUMBER = -10,    /* distributed: a global number is below 1, or occurs twice */
+  PSTRIPACK_RANKS_DISAGREE =
+      -7,                    /* the ranks of a collective call disagree in n, data, PSTRIPACK_ORDER or root */
+  PSTRIPACK_BAD_COMM = -8,   /* no usable communicator, or no such rank; MPI must not be called here */
+  PSTRIPACK_COINCIDENT = -9, /* distributed, scvt: two points in the same direction, or nearly */
+  PSTRIPACK_BAD_NUMBER = -10, /* distributed: a global number is below 1, or occurs twice */
+  PSTRIPACK_BAD_SIZE = -100,  /* distributed: n < 0; Fortran: arrays whose sizes do not fit */
   /* Only of the functions pstripack_scvt*: */
   PSTRIPACK_BAD_DENSITY = -11, /* the density is not positive, not finite, or varies too much, at some place;
                                   or a result is beyond the largest double */
@@ -77,10 +79,10 @@ PSTRIPACK_API int32_t pstripack_delaunay(int32_t n, const double* x, const doubl
                                          int32_t* list, int32_t* lptr, int32_t* lend, int32_t* lnew);
 
 /* Validates lists as of pstripack_trmesh or pstripack_delaunay. Returns 0 if they are a correct triangulation
- * of the nodes: well formed, every triangle counterclockwise, every arc locally Delaunay (exact signs, ties by
- * the rule), sphere or hull covered once. Otherwise returns the number of the violated property (> 0), or -1 or -6.
- *   lnew     0 if it is not known
- *   message  out, may be NULL: the defect and the nodes; at most `length` bytes, including the closing zero
+ * of the nodes: well formed, every triangle counterclockwise, every arc locally Delaunay (exact signs, ties
+ * by the rule), sphere or hull covered once. Otherwise returns the number of the violated property (> 0), or
+ * -1 or -6. lnew     0 if it is not known message  out, may be NULL: the defect and the nodes; at most
+ * `length` bytes, including the closing zero
  */
 PSTRIPACK_API int32_t pstripack_validate(int32_t n, const double* x, const double* y, const double* z,
                                          const int32_t* list, const int32_t* lptr, const int32_t* lend,

@@ -30,6 +30,7 @@ using namespace pstripack;
 struct pstripack_mesh {
   explicit pstripack_mesh(MPI_Comm comm) : mesh(comm) {}
   DistributedMesh mesh;
+  const pid_t process = getpid();
 };
 
 namespace {
@@ -39,6 +40,17 @@ bool mpi_is_running() {
   MPI_Initialized(&initialised);
   MPI_Finalized(&finalised);
   return initialised && !finalised;
+}
+
+/// False before MPI_Init, after MPI_Finalize, in a forked child of `process`, which has no part in MPI, and
+/// in a thread other than MPI's first if MPI provides less than `level`.
+bool may_call_mpi(pid_t process, int level = MPI_THREAD_SERIALIZED) {
+  if (process != getpid() || !mpi_is_running()) return false;
+  int provided = MPI_THREAD_SINGLE, is_main = 0;
+  MPI_Query_thread(&provided);
+  if (provided >= level) return true;
+  MPI_Is_thread_main(&is_main);
+  return is_main;
 }
 
 /// Calls body() in the default floating-point environment. Returns its result, or the code of its exception.
@@ -83,23 +95,12 @@ CommMode& comm_mode() {
   return *mode;
 }
 
-/// True if the call must not be collective: in a forked child, which has no part in MPI, after
-/// MPI_Finalize, or in a thread that must not call MPI.
-bool must_decline(const CommMode& mode) {
-  if (mode.process != getpid() || !mpi_is_running()) return true;
-  int level = MPI_THREAD_SINGLE, is_main = 0;
-  MPI_Query_thread(&level);
-  if (level == MPI_THREAD_MULTIPLE) return false;
-  MPI_Is_thread_main(&is_main);
-  return !is_main;
-}
-
 /// The engine of comm mode. A call that it takes holds the mutex.
 class CommEngine final : public Engine {
  public:
   bool takes(const TrmeshCall& call) noexcept override {
     CommMode& mode = comm_mode();
-    if (call.by_direction || must_decline(mode)) return false;
+    if (call.by_direction || !may_call_mpi(mode.process, MPI_THREAD_MULTIPLE)) return false;
     mode.one_call_at_a_time.lock();
     if (mode.ranks == nullptr) mode.one_call_at_a_time.unlock();
     return mode.ranks != nullptr;
@@ -138,6 +139,34 @@ std::int32_t told(const char* routine, std::int32_t code, const char* what = "")
     std::fprintf(stderr, "pstripack: %s: %s%s (IER = %d)\n", routine, what, pstripack_strerror(code),
                  static_cast<int>(code));
   return code;
+}
+
+/// The same with a text of its own.
+std::int32_t told_that(const char* routine, std::int32_t code, const char* text) {
+  std::fprintf(stderr, "pstripack: %s: %s (IER = %d)\n", routine, text, static_cast<int>(code));
+  return code;
+}
+
+constexpr const char* kNotFromHere = "MPI is not running, or must not be called by this thread or process";
+
+struct Text {
+  char text[200];
+};
+
+/// What is wrong with the number of points of a rank. The Fortran module passes the shape of an array
+/// xyz(rows, columns) that is not xyz(3, n) as n = -1 - ((rows + 1) * 2^31 + columns).
+Text text_of_count(const WrongArgument& n, const char* array_of_n) {
+  const auto value = static_cast<long long>(n.value), shape = -(value + 1);
+  Text line;
+  if (value >= 0)
+    std::snprintf(line.text, sizeof line.text, "rank %d: n = %lld: a rank may have at most %lld points",
+                  n.rank, value, static_cast<long long>(kMostPoints) - 1);
+  else if (shape >> 31 == 0)
+    std::snprintf(line.text, sizeof line.text, "rank %d: n = %lld is below 0", n.rank, value);
+  else
+    std::snprintf(line.text, sizeof line.text, "rank %d: xyz is (%lld,%lld): must be (3,n), n the size of %s",
+                  n.rank, (shape >> 31) - 1, shape & INT32_MAX, array_of_n);
+  return line;
 }
 
 void end_comm_mode(CommMode& mode) {
@@ -232,9 +261,17 @@ void let_rank_0_decide(scvt::RunOptions& how, MpiCommunicator& ranks) {
 struct StartOfRun {
   StartOfRun(MpiCommunicator& ranks, std::int64_t n, const double* xyz, const std::int64_t* number,
              const pstripack_scvt_options& options) {
+    const std::int64_t* const counts = ranks.all_gather_one(n);
+    std::int64_t total = 0;
+    for (int r = 0; r < ranks.size(); ++r) {
+      if (const std::int32_t code = code_of_rank_count(counts[r]); code != 0)
+        throw Refusal{code, text_of_count({r, counts[r]}, "number").text};
+      total += counts[r];
+    }
+    if (total < 4)
+      throw Refusal{PSTRIPACK_TOO_FEW_NODES,
+                    "a tessellation needs at least 4 generators, here are " + std::to_string(total)};
     in_agreement(ranks, [&] {
-      constexpr std::int64_t kMost = (std::int64_t{1} << 29) - 1;
-      if (n < 0 || n > kMost) throw Failure(PSTRIPACK_TOO_MANY_NODES);
       how = run_options(options);
       let_rank_0_decide(how, ranks);
       if (n == 0) return;
@@ -243,11 +280,6 @@ struct StartOfRun {
       for (std::size_t i = 0; i < numbers.size(); ++i)
         state.generators[i] = scvt::unit_vector({xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]});
     });
-    std::int64_t total = n;
-    ranks.all_sum(&total, 1);
-    if (total < 4)
-      throw Refusal{PSTRIPACK_TOO_FEW_NODES,
-                    "a tessellation needs at least 4 generators, here are " + std::to_string(total)};
   }
   scvt::RunOptions how;
   std::vector<std::int64_t> numbers;
@@ -272,6 +304,8 @@ MPI_Comm communicator_of(MPI_Fint comm) { return mpi_is_running() ? MPI_Comm_f2c
 extern "C" {
 
 int32_t pstripack_set_comm(MPI_Comm comm) {
+  if (mpi_is_running() && !may_call_mpi(getpid()))
+    return told_that("set_comm", PSTRIPACK_BAD_COMM, kNotFromHere);
   const std::int32_t code = guarded([&] {
     CommMode& mode = comm_mode();
     const std::lock_guard<std::mutex> lock(mode.one_call_at_a_time);
@@ -310,6 +344,8 @@ void pstripack_set_comm__(const MPI_Fint* comm) { pstripack_set_comm_f(*comm); }
 
 int32_t pstripack_mesh_create(MPI_Comm comm, pstripack_mesh** mesh) {
   *mesh = nullptr;
+  if (mpi_is_running() && !may_call_mpi(getpid()))
+    return told_that("mesh_create", PSTRIPACK_BAD_COMM, kNotFromHere);
   return told("mesh_create", guarded([&] {
                 *mesh = make_over<pstripack_mesh>(comm).release();
                 (*mesh)->mesh.ranks().call_roll();
@@ -321,14 +357,20 @@ int32_t pstripack_mesh_create_f(MPI_Fint comm, pstripack_mesh** mesh) {
   return pstripack_mesh_create(communicator_of(comm), mesh);
 }
 
-void pstripack_mesh_free(pstripack_mesh* mesh) { delete mesh; }
+void pstripack_mesh_free(pstripack_mesh* mesh) {
+  if (mesh != nullptr && mpi_is_running() && !may_call_mpi(mesh->process)) return;
+  delete mesh;
+}
 
 int32_t pstripack_mesh_triangulate(pstripack_mesh* mesh, int64_t n, const double* xyz,
                                    const int64_t* number) {
+  if (!may_call_mpi(mesh->process)) return told_that("mesh_triangulate", PSTRIPACK_BAD_COMM, kNotFromHere);
   const std::int32_t code = reported(
       mesh->mesh.ranks(), CallReport::distributed,
       [&](DistributedMesh::Report* report) { return mesh->mesh.triangulate(n, xyz, number, report); });
   if (mesh->mesh.ranks().rank() != 0) return code;
+  if (const WrongArgument& n = mesh->mesh.wrong_argument(); n.rank >= 0)
+    return told_that("mesh_triangulate", code, text_of_count(n, "number").text);
   const auto first = static_cast<long long>(mesh->mesh.error_point(0)),
              second = static_cast<long long>(mesh->mesh.error_point(1));
   char points[64] = "";
@@ -346,6 +388,8 @@ void pstripack_mesh_error_points(const pstripack_mesh* mesh, int64_t* first, int
 
 int32_t pstripack_mesh_home(const pstripack_mesh* mesh, int64_t n, const double* xyz, int32_t* rank) {
   if (mesh->mesh.empty()) return PSTRIPACK_EMPTY_MESH;
+  if (n < 0)
+    return told_that("mesh_home", PSTRIPACK_BAD_SIZE, text_of_count({mesh->mesh.rank(), n}, "rank").text);
   const bool are_finite = in_default_floating_point([&] { return mesh->mesh.home(n, xyz, rank); });
   return told("mesh_home", are_finite ? PSTRIPACK_OK : PSTRIPACK_BAD_COORDINATE);
 }
@@ -382,14 +426,21 @@ int32_t pstripack_mesh_local_stars(const pstripack_mesh* mesh, int64_t* begin, i
 
 int32_t pstripack_mesh_gather(pstripack_mesh* mesh, int32_t root, int32_t* list, int32_t* lptr, int32_t* lend,
                               int32_t* lnew) {
+  if (!may_call_mpi(mesh->process)) return told_that("mesh_gather", PSTRIPACK_BAD_COMM, kNotFromHere);
   const std::int32_t code =
       reported(mesh->mesh.ranks(), CallReport::distributed_gather, [&](DistributedMesh::Report* report) {
         return mesh->mesh.gather(root, {list, lptr, lend, lnew}, report);
       });
   if (mesh->mesh.ranks().rank() != 0) return code;
-  if (code != PSTRIPACK_BAD_COMM) return told("mesh_gather", code);
-  std::fprintf(stderr, "pstripack: mesh_gather: there is no rank %d (IER = -8)\n", static_cast<int>(root));
-  return code;
+  Text line;
+  if (const WrongArgument& other = mesh->mesh.wrong_argument(); code == PSTRIPACK_RANKS_DISAGREE)
+    std::snprintf(line.text, sizeof line.text, "root is %d on rank 0 and %d on rank %d",
+                  static_cast<int>(root), static_cast<int>(other.value), other.rank);
+  else if (code == PSTRIPACK_BAD_COMM)
+    std::snprintf(line.text, sizeof line.text, "there is no rank %d", static_cast<int>(root));
+  else
+    return told("mesh_gather", code);
+  return told_that("mesh_gather", code, line.text);
 }
 
 int32_t pstripack_mesh_scvt(pstripack_mesh* handle, int64_t n, double* xyz, const int64_t* number,
@@ -397,6 +448,8 @@ int32_t pstripack_mesh_scvt(pstripack_mesh* handle, int64_t n, double* xyz, cons
                             pstripack_scvt_result* result, char* message, int32_t length) {
   DistributedMesh& mesh = handle->mesh;
   MpiCommunicator& ranks = mesh.ranks();
+  if (!may_call_mpi(handle->process))
+    return guarded_scvt(message, length, [] { throw Refusal{PSTRIPACK_BAD_COMM, kNotFromHere}; });
   const std::int32_t code = guarded_scvt(message, length, [&] {
     abort_without_memory(ranks, [&] {
       const pstripack_scvt_options chosen = checked_by_all(ranks, options);

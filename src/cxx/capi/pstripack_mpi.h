@@ -48,7 +48,9 @@ PSTRIPACK_API int32_t pstripack_set_comm_f(MPI_Fint comm);
 PSTRIPACK_API void pstripack_set_comm_(const MPI_Fint* comm);
 PSTRIPACK_API void pstripack_set_comm__(const MPI_Fint* comm); /* as -fsecond-underscore calls it */
 
-/* A distributed mesh: points that stay on their ranks, and the stars of each rank's own points. */
+/* A distributed mesh: points that stay on their ranks, and the stars of each rank's own points. Its
+ * collective functions return -8, having done nothing, where MPI must not be called: after MPI_Finalize, in a
+ * forked child, and in threads other than MPI's first, unless MPI provides MPI_THREAD_SERIALIZED. */
 typedef struct pstripack_mesh pstripack_mesh;
 
 /* Creates an empty mesh over a duplicate of comm; *mesh = NULL on an error. Collective. Returns 0, -6 or
@@ -66,9 +68,9 @@ PSTRIPACK_API void pstripack_mesh_free(pstripack_mesh* mesh);
  *   number    in: n global numbers of 64 bits, at least 1, each once over all ranks, in any order
  * Points that are close together should be on one rank (pstripack_mesh_home): then little is sent. The
  * result does not depend on the distribution of the points, nor on the number of ranks or threads. Returns
- * 0, -1 (fewer than three points in all), -2 (all on one great circle), -4 (n < 0 or too large), -5, -6,
- * -9 or -10. After an error the mesh is empty. If there are several errors, the code is the first of -4,
- * -1, -10 (below 1), -5, -10 (twice), -2, -9; -6 may occur at any time. */
+ * 0, -1 (fewer than three points in all), -2 (all on one great circle), -4 (n too large), -5, -6, -9, -10 or
+ * -100 (n < 0). After an error the mesh is empty. If there are several errors, the code is the first of -100
+ * and -4, -1, -10 (below 1), -5, -10 (twice), -2, -9; -6 may occur at any time. */
 PSTRIPACK_API int32_t pstripack_mesh_triangulate(pstripack_mesh* mesh, int64_t n, const double* xyz,
                                                  const int64_t* number);
 
@@ -80,7 +82,7 @@ PSTRIPACK_API void pstripack_mesh_error_points(const pstripack_mesh* mesh, int64
  * rank's points lie close together and all ranks have about the same number. The partition is that of the
  * last pstripack_mesh_triangulate. Points that have been moved to these ranks keep them in later calls,
  * until some rank has an eighth more points than the average. Not collective. Returns 0, or -3 (empty
- * mesh) or -5, having written nothing. */
+ * mesh), -5 or -100 (n < 0), having written nothing. */
 PSTRIPACK_API int32_t pstripack_mesh_home(const pstripack_mesh* mesh, int64_t n, const double* xyz,
                                           int32_t* rank);
 
@@ -120,8 +122,8 @@ PSTRIPACK_API int32_t pstripack_mesh_local_stars(const pstripack_mesh* mesh, int
 /* Gathers the canonical lists of the whole mesh on rank `root`, or on every rank if root = -1. The global
  * numbers must be 1..N, where N is the number of all points. list, lptr (6N-12 entries), lend (N entries),
  * lnew: out, as of pstripack_trmesh, on the ranks that get the lists; may be NULL on others. Collective.
- * Returns 0, -3 (empty mesh), -4 (6N-11 does not fit 32 bits), -6, -8 (no rank `root`) or -10 (the numbers
- * are not 1..N). After an error nothing is written. */
+ * Returns 0, -3 (empty mesh), -4 (6N-11 does not fit 32 bits), -6, -7 (`root` is not the same on all ranks),
+ * -8 (no rank `root`) or -10 (the numbers are not 1..N). After an error nothing is written. */
 PSTRIPACK_API int32_t pstripack_mesh_gather(pstripack_mesh* mesh, int32_t root, int32_t* list, int32_t* lptr,
                                             int32_t* lend, int32_t* lnew);
 
@@ -137,7 +139,7 @@ PSTRIPACK_API int32_t pstripack_mesh_gather(pstripack_mesh* mesh, int32_t root, 
  *   message, length   as in pstripack_scvt
  * Points that are close together should be on one rank (pstripack_mesh_home). Afterwards the mesh is that
  * of the generators. Returns the same on every rank: 0, whatever the reason to end; -1 (fewer than 4
- * generators in all), -4, -5, -6, -9, -10, -11, -12 or -14. After an error the mesh is empty, and nothing
+ * generators in all), -4, -5, -6, -9 to -12, -14 or -100. After an error the mesh is empty, and nothing
  * is written except `message`. A C++ exception of the density or of `progress` becomes
  * PSTRIPACK_BAD_DENSITY. A rank that runs out of memory between two triangulations aborts the job, with a
  * line on stderr. */

@@ -159,25 +159,29 @@ Verdict check_geometry(const Predicates& predicates, const StarTable& stars, Tie
   constexpr std::size_t kTests = 3, kAhead = 8;
   const int threads = threads_for(10 * stars.size());
   std::vector<Verdict> found(kTests * static_cast<std::size_t>(threads));
+  ErrorsOfThreads errors(static_cast<std::size_t>(threads));
   parallel_pieces(stars.size(), threads, [&](std::size_t first, std::size_t last, int piece) {
-    Verdict* const verdicts = found.data() + kTests * static_cast<std::size_t>(piece);
-    std::size_t tests = kTests;  // tests still to be made
-    for (std::size_t v = first; v < last; ++v) {
-      if (v + kAhead < last)
-        for (std::size_t i = stars.begin[v + kAhead]; i < stars.begin[v + kAhead + 1]; ++i)
-          __builtin_prefetch(&predicates.position(stars.to[i] < 0 ? ~stars.to[i] : stars.to[i]));
-      const auto node = static_cast<index_t>(v);
-      const Star star(stars, node);
-      for (std::size_t test = 0; test < tests; ++test) {
-        Verdict verdict = test == 0   ? check_triangles(predicates, node, star)
-                          : test == 1 ? check_winding(predicates, node, star)
-                                      : check_arcs(predicates, node, star, ties);
-        if (verdict) continue;
-        verdicts[test] = std::move(verdict);
-        tests = test;
+    errors.keep(static_cast<std::size_t>(piece), [&] {
+      Verdict* const verdicts = found.data() + kTests * static_cast<std::size_t>(piece);
+      std::size_t tests = kTests;  // tests still to be made
+      for (std::size_t v = first; v < last; ++v) {
+        if (v + kAhead < last)
+          for (std::size_t i = stars.begin[v + kAhead]; i < stars.begin[v + kAhead + 1]; ++i)
+            __builtin_prefetch(&predicates.position(stars.to[i] < 0 ? ~stars.to[i] : stars.to[i]));
+        const auto node = static_cast<index_t>(v);
+        const Star star(stars, node);
+        for (std::size_t test = 0; test < tests; ++test) {
+          Verdict verdict = test == 0   ? check_triangles(predicates, node, star)
+                            : test == 1 ? check_winding(predicates, node, star)
+                                        : check_arcs(predicates, node, star, ties);
+          if (verdict) continue;
+          verdicts[test] = std::move(verdict);
+          tests = test;
+        }
       }
-    }
+    });
   });
+  errors.rethrow();
   for (std::size_t test = 0; test < kTests; ++test)
     for (std::size_t piece = 0; piece < static_cast<std::size_t>(threads); ++piece)
       if (const Verdict& v = found[kTests * piece + test]; !v) return v;

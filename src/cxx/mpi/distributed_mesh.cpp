@@ -16,6 +16,7 @@ namespace pstripack {
 
 void DistributedMesh::clear() {
   error_point_[0] = error_point_[1] = 0;
+  wrong_argument_ = {};
   total_ = 0;
   is_reported_ = false;
   own_ = {};
@@ -28,9 +29,7 @@ std::int32_t DistributedMesh::triangulate(std::int64_t n, const double* xyz, con
   by_direction_ = by_direction;
   // The caller's coordinates are not copied: they may take most of the memory of the machine.
   static_assert(sizeof(Point) == 3 * sizeof(double));
-  const bool fits = n >= 0 && n < static_cast<std::int64_t>(kMostPoints);
-  const LocalNodes points{reinterpret_cast<const Point*>(xyz),
-                          fits ? static_cast<std::size_t>(n) : kMostPoints, number};
+  const LocalNodes points{reinterpret_cast<const Point*>(xyz), static_cast<std::size_t>(n), number};
   const std::int64_t sent_before = ranks_.bytes_sent;
   ParallelCost mine;
   std::int32_t code = 0;
@@ -62,6 +61,7 @@ std::int32_t DistributedMesh::triangulate_points(const LocalNodes& points, bool 
   if (report != nullptr) report->points = numbering.total;
   is_reported_ = numbering.is_reported;
   error_point_[0] = numbering.error_point;
+  wrong_argument_ = numbering.wrong_count;
   if (numbering.code != 0) return numbering.code;
   const std::int32_t code = numbering.total <= INT32_MAX
                                 ? triangulate_into<std::int32_t>(points, numbering, cost)
@@ -292,6 +292,12 @@ std::int32_t DistributedMesh::gather(std::int32_t root, const ListArrays& lists,
 
 std::int32_t DistributedMesh::gather_stars(std::int32_t root, const ListArrays& lists) {
   if (empty()) return kEmpty;
+  const std::int64_t* const roots = ranks_.all_gather_one(root);
+  for (int r = 1; r < ranks_.size(); ++r)
+    if (roots[r] != roots[0]) {
+      wrong_argument_ = {r, roots[r]};
+      return kRanksDisagree;
+    }
   if (root < kEveryRank || root >= ranks_.size()) return kNoSuchRank;
   if (!numbers_are_dense_) return kBadNumber;
   if (total_ > most_nodes<std::int32_t>()) return kTooMany;

@@ -26,6 +26,7 @@ class DistributedMesh {
   explicit DistributedMesh(MPI_Comm comm) : ranks_(comm) {}
 
   MpiCommunicator& ranks() { return ranks_; }
+  int rank() const { return ranks_.rank(); }
 
   struct Report {
     std::int64_t points = 0, boundary_points = 0;  ///< of all ranks; 0 if not known
@@ -46,14 +47,16 @@ class DistributedMesh {
     homes_.reset();
   }
   std::int64_t error_point(int i) const { return error_point_[i]; }
+  /// After kBadSize and kTooMany of triangulate(): its n. After kRanksDisagree of gather(): its root.
+  const WrongArgument& wrong_argument() const { return wrong_argument_; }
 
   const OwnStars& own() const { return own_; }
   /// Sets rank[i] to the home of each of n points. If one is zero or not finite returns false, having written
   /// nothing. The mesh must not be empty. Not collective.
   bool home(std::int64_t n, const double* xyz, std::int32_t* rank) const;
 
-  /// Gathers the lists. Returns the result code. root: the rank that has the arrays, or kEveryRank.
-  /// `report` is filled if triangulate() has filled one. Collective.
+  /// Gathers the lists. Returns the result code. root: the rank that has the arrays, or kEveryRank; ranks
+  /// that disagree in it get kRanksDisagree. `report` is filled if triangulate() has filled one. Collective.
   static constexpr std::int32_t kEveryRank = -1;
   std::int32_t gather(std::int32_t root, const ListArrays& lists, Report* report = nullptr);
 
@@ -80,6 +83,7 @@ class DistributedMesh {
   MpiCommunicator ranks_;
   bool by_direction_ = false;  ///< in this call of triangulate()
   std::int64_t error_point_[2] = {0, 0};
+  WrongArgument wrong_argument_;
   std::int64_t total_ = 0;          ///< points of all ranks
   bool is_reported_ = false;        ///< rank 0 wants reports; the same on every rank
   bool numbers_are_dense_ = false;  ///< the global numbers are 1..total

@@ -78,11 +78,12 @@ Numbering check_all(const LocalNodes& points, bool wants_report, bool numbers_ar
     numbering.error_point = point;
     return std::move(numbering);  // a copy could fail on this rank alone
   };
-  const bool fits = points.count < kMostPoints;
-  const std::int64_t* const counts =
-      ranks.all_gather_one(fits ? static_cast<std::int64_t>(points.count) : -1);
+  const std::int64_t* const counts = ranks.all_gather_one(static_cast<std::int64_t>(points.count));
   for (int r = 0; r < ranks.size(); ++r) {
-    if (counts[r] < 0) return failed(kTooMany, 0);
+    if (const std::int32_t code = code_of_rank_count(counts[r]); code != 0) {
+      numbering.wrong_count = {r, counts[r]};
+      return failed(code, 0);
+    }
     numbering.total += counts[r];
   }
   if (numbering.total < 3) return failed(kTooFew, 0);

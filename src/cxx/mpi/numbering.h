@@ -17,15 +17,28 @@ namespace pstripack {
 
 /// Result codes of capi/pstripack_mpi.h.
 constexpr std::int32_t kTooFew = -1, kCollinear = -2, kEmpty = -3, kTooMany = -4, kBadCoordinate = -5,
-                       kRanksDisagree = -7, kNoSuchRank = -8, kCoincident = -9, kBadNumber = -10;
+                       kRanksDisagree = -7, kNoSuchRank = -8, kCoincident = -9, kBadNumber = -10,
+                       kBadSize = -100;
 
 /// A rank must bring fewer points than this.
 constexpr std::size_t kMostPoints = std::size_t{1} << 29;
+
+/// 0 if a rank may bring n points, else a result code.
+constexpr std::int32_t code_of_rank_count(std::int64_t n) {
+  return n < 0 ? kBadSize : n < static_cast<std::int64_t>(kMostPoints) ? 0 : kTooMany;
+}
+
+/// A wrong argument, and the first rank that has passed it; the same on every rank.
+struct WrongArgument {
+  int rank = -1;  ///< -1: none is wrong
+  std::int64_t value = 0;
+};
 
 /// Properties of all points and their global numbers; the same on every rank, except `check`.
 struct Numbering {
   std::int32_t code = 0;         ///< 0; else a result code: there is no mesh
   std::int64_t error_point = 0;  ///< number of the point that the code is about; 0 if none
+  WrongArgument wrong_count;
   std::int64_t total = 0;
   NodeRanges ranges;
   std::int64_t low = 0, high = 0;  ///< smallest and largest number
@@ -36,7 +49,7 @@ struct Numbering {
   bool is_dense() const { return low == 1 && high == total; }  ///< the numbers are 1..total
 };
 
-/// Counts the points and checks every point and every number. points.count == kMostPoints means too many.
+/// Counts the points and checks every point and every number. points.count may be wrong (code_of_rank_count).
 /// wants_report: used on rank 0 only. numbers_are_known: this rank's numbers are those of the last call,
 /// which has found that all are different. Collective. Throws AgreedFailure.
 Numbering check_all(const LocalNodes& points, bool wants_report, bool numbers_are_known,

@@ -35,7 +35,10 @@ auto read_once(const Read& read) {
 bool warm_start_is_allowed() {
   return read_once([] {
     const char* const value = environment_variable("PSTRIPACK_WARM_START");
-    return value == nullptr || std::strcmp(value, "0") != 0;
+    if (value == nullptr || *value == '\0' || std::strcmp(value, "1") == 0) return true;
+    if (std::strcmp(value, "0") == 0) return false;
+    std::fprintf(stderr, "pstripack: PSTRIPACK_WARM_START=%s: not 0 or 1; 1 is used\n", value);
+    return true;
   });
 }
 

@@ -175,7 +175,7 @@ std::pair<bool, bool> WarmStart::move_nodes(CachedMesh& cached) const {
     cached.mesh.emplace(points.data(), n_, cached.list.data(), cached.lend.data());
   }
   MovingMesh& mesh = *cached.mesh;
-  std::atomic<bool> all_have_length_one{true}, any_has_moved{is_new};
+  std::atomic<bool> all_have_length_one{true}, any_has_moved{false};
   nodes_.visit([&](const auto& node) {
     parallel_pieces(n_, threads_for(n_), [&](std::size_t first, std::size_t last, int) {
       bool have_length_one = true, has_moved = false;
@@ -184,7 +184,7 @@ std::pair<bool, bool> WarmStart::move_nodes(CachedMesh& cached) const {
         const Point p = node(k);
         Point& place = mesh.node(k);
         have_length_one = have_length_one & is_one(p);
-        has_moved = has_moved | (place != p);
+        has_moved = has_moved | (is_new || place != p);  // the nodes of a new mesh are not set yet
         place = p;
       }
       if (!have_length_one) all_have_length_one = false;
