@@ -129,6 +129,13 @@ TEST(Measures, OfTrianglesOfAnySize) {
     row(width, "at a pole", [&](Random& r, Point(&p)[3]) {
       for (Point& q : p) q = {r.uniform(-width, width), r.uniform(-width, width), 1};
     });
+  for (const double off : {1e-2, 1e-4, 1e-6, 1e-8})
+    row(off, "off an arc", [&](Random& r, Point(&p)[3]) {  // its plane nearly holds the centre
+      const Point g = r.direction();
+      p[0] = near(g, 0, 0);
+      p[1] = near(g, -r.uniform(0.2, 0.31), -off), p[2] = near(g, r.uniform(0.2, 0.31), -off);
+      std::rotate(p, p + static_cast<int>(r.uniform(0, 3)), p + 3);
+    });
   row(3, "hemisphere", [](Random& r, Point(&p)[3]) {
     const Point g = r.direction();
     for (int k = 0; k < 3; ++k) {
