@@ -96,7 +96,8 @@ struct TriangleBySides {
     for (int k = 0; k < 3; ++k) {
       const Point s = as_point(side[k], -exponent);
       square[k] = dot(s, s);
-      size[k] = std::sqrt(square[k]);
+      size[k] = square[k] > 0x1p-900 ? std::sqrt(square[k])  // else the square may underflow
+                                     : A::value(A::square_root(dot(side[k], side[k])), -exponent);
     }
     first = (longest_of(square) + 2) % 3, second = (first + 2) % 3;
     normal = cross(side[second], side[first]);
@@ -144,9 +145,11 @@ bool find_circumcircle(const Direction (&corner)[3], Circumcircle& circle) {
     circle = {n, 2 * std::asin(std::sqrt(square_of(offset)) / 2)};
   } else {
     const double cosine = std::sqrt((1 - sine) * (1 + sine)), above = sine * sine / (1 + cosine);
-    // C, in the unit of the sides: the side f leads to the apex, so f is -f here.
-    const Point c = scaled(0.5 / (t.size_across * t.size_across),
-                           cross(normal, {ff * e.x + ee * f.x, ff * e.y + ee * f.y, ff * e.z + ee * f.z}));
+    // C, in the unit of the sides: the side f leads to the apex, so f is -f here. Divided by |n| twice, whose
+    // square may underflow.
+    const Point c =
+        scaled(0.5 / t.size_across, cross(scaled(1 / t.size_across, normal),
+                                          {ff * e.x + ee * f.x, ff * e.y + ee * f.y, ff * e.z + ee * f.z}));
     const double unit = std::ldexp(1, t.exponent);
     const auto coordinate = [&](double high, double low, double in_plane) {
       return high + (low + (unit * in_plane + above * high) / cosine);
@@ -355,8 +358,9 @@ Angles angles_of(const Direction& a, const Direction& b, const Direction& c) {
 
 double cell_area(const Direction& v, const Direction* ring, std::size_t count) {
   double area = kNone;
-  with_enough_bits([&](auto zero) { return find_cell_area<decltype(zero)>(v, ring, count, area); });
-  return area;
+  const bool found =
+      with_enough_bits([&](auto zero) { return find_cell_area<decltype(zero)>(v, ring, count, area); });
+  return found && area >= std::numeric_limits<double>::min() ? area : kNone;
 }
 
 }  // namespace pstripack

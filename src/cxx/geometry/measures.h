@@ -6,11 +6,11 @@
 // differences of exact directions, and each step has a bound. Where doubles do not meet it, double-doubles
 // follow, and then floating-point numbers of 256, 1280 and 9216 bits.
 //
-// For finite vectors with different directions, from 1e-150 rad apart to opposite ones, with u = 2^-53:
+// For finite vectors with different directions, from 1e-300 rad apart to opposite ones, with u = 2^-53:
 //   length           8u of itself
 //   radius           80u of itself; beyond 60 degrees 64u rad
 //   circumcentre     192u of the radius, beyond 30 degrees 384u, and the rounding of its three coordinates
-//   area             64u of itself, that of a cell 128u
+//   area             64u of itself and 2^-1074; that of a cell 128u of itself, NaN below 2^-1022
 // These are bounds of the analysis in measures.cpp; docs/trust.md has the errors seen.
 
 #include <cmath>
