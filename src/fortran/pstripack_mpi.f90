@@ -286,7 +286,7 @@ contains
     ier = -3
     if (.not. c_associated(mesh%handle)) return
     ier = -4
-    if (size(xyz, 1) /= 3 .or. size(rank) < size(xyz, 2)) return
+    if (size(xyz, 1) /= 3 .or. size(rank, kind=c_int64_t) < size(xyz, 2, kind=c_int64_t)) return
     ier = c_home(mesh%handle, size(xyz, 2, kind=c_int64_t), xyz, rank)
   end subroutine
 
