@@ -62,6 +62,9 @@ module pstripack
     !> False: only the thread that called the library calls the density, and does the integrals alone. True: any
     !> number of the library's threads call it at once.
     logical :: density_on_threads = .false.
+    logical :: widths = .false.  !< the density procedure returns widths of cells, in any unit
+    !> In the end a few generators move, until all triangles hold their circumcentre strictly.
+    logical :: well_centred = .false.
   end type
 
   type, bind(c) :: pstripack_scvt_result
@@ -259,20 +262,21 @@ contains
     integer(c_int32_t) :: defect
     character(kind=c_char) :: line(400)
     line = c_null_char
-    if (sizes_fit(size(x), size(y), size(z), size(list), size(lptr), size(lend))) then
-      defect = c_validate(size(x, kind=c_int32_t), x, y, z, list, lptr, lend, lnew, line, size(line, kind=c_int32_t))
+    if (sizes_fit(x, y, z, list, lptr, lend)) then
+      defect = c_validate(count_of(x), x, y, z, list, lptr, lend, lnew, line, size(line, kind=c_int32_t))
     else
       defect = pstripack_bad_size
     end if
     call tell(line, message)
   end function
 
-  !> A hash of 64 bits that depends on the set of triangles alone; 0 if the lists are not well formed. The number of
-  !> nodes is size(lend).
+  !> A hash of 64 bits that depends on the set of triangles alone; 0 if the lists are not well formed. The number n of
+  !> nodes is size(lend); 0 if list or lptr has less than 6n-12 entries.
   recursive function pstripack_fingerprint(list, lptr, lend) result(bits)
     integer(c_int32_t), intent(in), contiguous :: list(:), lptr(:), lend(:)
     integer(c_int64_t) :: bits
-    bits = c_fingerprint(size(lend, kind=c_int32_t), list, lptr, lend)
+    bits = 0
+    if (sizes_fit(lend, lend, lend, list, lptr, lend)) bits = c_fingerprint(count_of(lend), list, lptr, lend)
   end function
 
   !> A centroidal Voronoi tessellation: finds n = size(x) generators for the density.
@@ -303,7 +307,7 @@ contains
 
   !> The same for widths of cells in place of a density.
   !>   width         widths of cells, in any unit: n is size(x); pstripack_scvt_cells tells a good n
-  !>   well_centred  true: in the end a few generators move, until all triangles hold their circumcentre strictly
+  !>   well_centred  as the component of pstripack_scvt_options
   recursive subroutine pstripack_scvt_widths(x, y, z, result, ier, width, options, progress, well_centred, message)
     real(c_double), intent(inout), contiguous :: x(:), y(:), z(:)
     type(pstripack_scvt_result), intent(inout) :: result
@@ -335,8 +339,8 @@ contains
 
     line = c_null_char
     ier = pstripack_bad_size
-    if (size(y) == size(x) .and. size(z) == size(x)) &
-      ier = c_scvt(size(x, kind=c_int32_t), x, y, z, rho, options, result, line, size(line, kind=c_int32_t))
+    if (all([size(y, kind=c_int64_t), size(z, kind=c_int64_t)] == size(x, kind=c_int64_t))) &
+      ier = c_scvt(count_of(x), x, y, z, rho, options, result, line, size(line, kind=c_int32_t))
     call tell(line, message)
     if (present(message) .and. ier == pstripack_bad_size) message = pstripack_strerror(ier)
   end subroutine
@@ -397,9 +401,11 @@ contains
       if (present(density_on_threads)) rho%any_thread = merge(1_c_int32_t, 0_c_int32_t, density_on_threads)
     end if
     ier = pstripack_bad_size
-    fit = sizes_fit(size(x), size(y), size(z), size(list), size(lptr), size(lend))
-    if (fit .and. all([size(xc), size(yc), size(zc), size(mass)] == size(x))) &
-      ier = c_scvt_step(size(x, kind=c_int32_t), x, y, z, list, lptr, lend, rho, xc, yc, zc, mass, energy, line, &
+    fit = sizes_fit(x, y, z, list, lptr, lend)
+    fit = fit .and. all([size(xc, kind=c_int64_t), size(yc, kind=c_int64_t), size(zc, kind=c_int64_t), &
+                         size(mass, kind=c_int64_t)] == size(x, kind=c_int64_t))
+    if (fit) &
+      ier = c_scvt_step(count_of(x), x, y, z, list, lptr, lend, rho, xc, yc, zc, mass, energy, line, &
                         size(line, kind=c_int32_t))
     call tell(line, message)
     if (present(message) .and. ier == pstripack_bad_size) message = pstripack_strerror(ier)
@@ -413,8 +419,8 @@ contains
     integer(c_int32_t), intent(inout) :: lnew
     integer(c_int32_t), intent(out) :: ier
     ier = pstripack_bad_size
-    if (sizes_fit(size(x), size(y), size(z), size(list), size(lptr), size(lend))) &
-      ier = c_trmesh(size(x, kind=c_int32_t), x, y, z, list, lptr, lend, lnew)
+    if (sizes_fit(x, y, z, list, lptr, lend)) &
+      ier = c_trmesh(count_of(x), x, y, z, list, lptr, lend, lnew)
   end subroutine
 
   !> The Delaunay triangulation of the directions of the nodes: arguments as of pstripack_trmesh, which takes
@@ -426,8 +432,8 @@ contains
     integer(c_int32_t), intent(inout) :: lnew
     integer(c_int32_t), intent(out) :: ier
     ier = pstripack_bad_size
-    if (sizes_fit(size(x), size(y), size(z), size(list), size(lptr), size(lend))) &
-      ier = c_delaunay(size(x, kind=c_int32_t), x, y, z, list, lptr, lend, lnew)
+    if (sizes_fit(x, y, z, list, lptr, lend)) &
+      ier = c_delaunay(count_of(x), x, y, z, list, lptr, lend, lnew)
   end subroutine
 
   recursive subroutine trmesh_real32(x, y, z, list, lptr, lend, lnew, ier)
@@ -436,13 +442,23 @@ contains
     integer(c_int32_t), intent(inout) :: lnew
     integer(c_int32_t), intent(out) :: ier
     ier = pstripack_bad_size
-    if (sizes_fit(size(x), size(y), size(z), size(list), size(lptr), size(lend))) &
-      ier = c_trmesh_r4(size(x, kind=c_int32_t), x, y, z, list, lptr, lend, lnew)
+    if (sizes_fit(x, y, z, list, lptr, lend)) &
+      ier = c_trmesh_r4(count_of(x), x, y, z, list, lptr, lend, lnew)
   end subroutine
 
-  recursive logical function sizes_fit(n, ny, nz, nlist, nlptr, nlend)
-    integer, intent(in) :: n, ny, nz, nlist, nlptr, nlend
-    sizes_fit = ny == n .and. nz == n .and. nlend >= n .and. min(nlist, nlptr) >= 6*int(n, c_int64_t) - 12
+  recursive logical function sizes_fit(x, y, z, list, lptr, lend)
+    type(*), intent(in) :: x(:), y(:), z(:), list(:), lptr(:), lend(:)
+    integer(c_int64_t) :: n
+    n = size(x, kind=c_int64_t)
+    sizes_fit = size(y, kind=c_int64_t) == n .and. size(z, kind=c_int64_t) == n .and. &
+                size(lend, kind=c_int64_t) >= n .and. &
+                min(size(list, kind=c_int64_t), size(lptr, kind=c_int64_t)) >= 6*n - 12
+  end function
+
+  !> The number of nodes for the C API, where the largest integer is as good as any count above: too many.
+  recursive integer(c_int32_t) function count_of(x)
+    type(*), intent(in) :: x(:)
+    count_of = int(min(size(x, kind=c_int64_t), int(huge(count_of), c_int64_t)), c_int32_t)
   end function
 
   pure integer function length_of_version()

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
 #include <numeric>
 #include <string>
 
@@ -189,7 +190,7 @@ void try_one(std::uint64_t seed, Tally& tally) {
   ParallelOptions options;
   options.closing_nodes = 1 + random.below(6);
   options.patches = ranks == 1 ? 2 + static_cast<int>(random.below(7)) : 1 + (random.below(4) == 0);
-  options.partition = kPartitions[random.below(3)].kind;
+  options.partition = kPartitions[random.below(std::size(kPartitions))].kind;
   options.with_neighbours = random.below(2) == 0;
   if (random.below(4) != 0) options.given = random_partition(random, ranks * options.patches);
   std::vector<std::unique_ptr<Homes>> homes(static_cast<std::size_t>(ranks));

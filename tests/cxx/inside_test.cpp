@@ -113,3 +113,22 @@ TYPED_TEST(Inside, HoldsItsVerticesAndNotTheirOpposites) {
     }
   }
 }
+
+TEST(InsidePolygon, DoesNotDependOnLengths) {
+  // A place on the side of an octant, one inside and one outside, with vectors of all lengths.
+  const double lengths[] = {0x1p-1000, 0x1p-530, 1, 0x1p135, 0x1p500};
+  const std::int32_t order[] = {1, 2, 3};
+  for (const double a : lengths)
+    for (const double b : lengths)
+      for (const double l : lengths) {
+        const double x[] = {a, 0, 0}, y[] = {0, b, 0}, z[] = {0, 0, a};
+        const auto is_inside = [&](const Vector<double>& p) {
+          bool result = false;
+          EXPECT_EQ(inside(p, 3, Nodes<double>{x, y, z}, 3, order, result), PolygonStatus::done);
+          return result;
+        };
+        EXPECT_TRUE(is_inside({l, 2 * l, 0})) << a << ' ' << b << ' ' << l;
+        EXPECT_TRUE(is_inside({l, 2 * l, l / 4})) << a << ' ' << b << ' ' << l;
+        EXPECT_FALSE(is_inside({l, 2 * l, -l / 4})) << a << ' ' << b << ' ' << l;
+      }
+}

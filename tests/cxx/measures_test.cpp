@@ -129,6 +129,19 @@ TEST(Measures, OfTrianglesOfAnySize) {
     row(width, "at a pole", [&](Random& r, Point(&p)[3]) {
       for (Point& q : p) q = {r.uniform(-width, width), r.uniform(-width, width), 1};
     });
+  for (const double width : {1e-155, 1e-200, 1e-300})
+    row(width, "pair", [&](Random& r, Point(&p)[3]) {  // whose squares underflow, and a node far away
+      for (Point& q : p) q = {r.uniform(-width, width), r.uniform(-width, width), 1};
+      p[2] = r.direction();
+      std::rotate(p, p + static_cast<int>(r.uniform(0, 3)), p + 3);
+    });
+  for (const double off : {1e-2, 1e-4, 1e-6, 1e-8})
+    row(off, "off an arc", [&](Random& r, Point(&p)[3]) {  // its plane nearly holds the centre
+      const Point g = r.direction();
+      p[0] = near(g, 0, 0);
+      p[1] = near(g, -r.uniform(0.2, 0.31), -off), p[2] = near(g, r.uniform(0.2, 0.31), -off);
+      std::rotate(p, p + static_cast<int>(r.uniform(0, 3)), p + 3);
+    });
   row(3, "hemisphere", [](Random& r, Point(&p)[3]) {
     const Point g = r.direction();
     for (int k = 0; k < 3; ++k) {
@@ -223,6 +236,19 @@ TEST(Measures, OfCellsOfAnySize) {
       nodes = far;
       for (int k = 0; k < 8; ++k) nodes.push_back({r.uniform(-width, width), r.uniform(-width, width), 1});
     });
+}
+
+TEST(Measures, OfCellsWhoseNodesAreTooClose) {
+  for (const double w : {1e-150, 1e-160, 1e-300}) {
+    std::vector<Direction> ring;
+    for (const Point& p : {Point{w, 0, 1}, Point{0, w, 1}, Point{-w, 0, 1}, Point{0, -w, 1}})
+      ring.push_back(pstripack::direction_of(p));
+    const double area = cell_area(pstripack::direction_of({0, 0, 1}), ring.data(), ring.size());
+    EXPECT_EQ(std::isnan(area), w < 1e-154) << w;
+    if (w > 1e-154) {
+      EXPECT_NEAR(area / (w * w), 1, 1e-15);
+    }
+  }
 }
 
 TEST(Measures, OfNearCopiesOfAPole) {

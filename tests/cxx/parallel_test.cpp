@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <mutex>
+#include <new>
 #include <numeric>
 #include <string>
 #include <tuple>
@@ -16,6 +18,7 @@
 
 #include "base/workspace.h"
 #include "distributions.h"
+#include "parallel/agreement.h"
 #include "parallel/coincidence.h"
 #include "parallel/number_table.h"
 #include "parallel/partition.h"
@@ -690,6 +693,64 @@ TEST(GivingUp, OfRanksLeavesAllToOne) {
     EXPECT_EQ(out.cost[2].in_one_patch, 1) << is_given;
     EXPECT_EQ(homes[0]->partition()->patches(), 3);
   }
+}
+
+TEST(Ranks, MayHaveNoPatch) {
+  const Set set(point_sets::make("random", 3000, 1));
+  std::vector<std::size_t> rank_of_node;
+  for (std::size_t i = 0; i < set.nodes.size(); ++i) rank_of_node.push_back(i % 3);
+  for (const auto& patches : {std::vector{2, 2, 0}, std::vector{0, 2, 2}, std::vector{2, 0, 2}}) {
+    std::vector<std::unique_ptr<Homes>> homes(3);
+    const Outcome out = run<std::int32_t>(set.nodes, rank_of_node, {}, homes, patches);
+    EXPECT_TRUE(is_serial(set, out));
+    EXPECT_EQ(out.cost[0].in_one_patch, 0);
+  }
+}
+
+/// Nodes of the sample that close the far side: those that were not delivered, even if by now the partition
+/// says that they are in the halo.
+TEST(ClosingNodes, AreThoseThatWereNotDelivered) {
+  const Set set(point_sets::make("random", 300, 1));
+  const std::vector<std::size_t> rank_of_node(set.nodes.size(), 0);
+  std::atomic<std::size_t> asked = 0;
+  ParallelOptions options;
+  options.patches = 2;
+  options.given = std::make_shared<Partition>(
+      2, Partition::Rule{[](const Point& p) { return p.x < 0 ? 0 : 1; },
+                         [&](PatchNumber, const Point&) { return ++asked > set.nodes.size(); }});
+  std::vector<std::unique_ptr<Homes>> homes(1);
+  const Outcome out = run<std::int32_t>(set.nodes, rank_of_node, options, homes);
+  EXPECT_TRUE(is_serial(set, out));
+  EXPECT_EQ(out.cost[0].in_one_patch, 0);
+}
+
+template <class Thrown>
+void expect_agreed(const Thrown& thrown, std::int32_t code) {
+  ThreadRanks::run(2, [&](Communicator& ranks) {
+    const auto body = [&] {
+      if (ranks.rank() == 1) throw thrown;
+      return Parcels{{}, {0, 0, 0}};
+    };
+    const auto expect = [&](const auto& collective) {
+      try {
+        collective();
+        ADD_FAILURE() << "no exception";
+      } catch (const AgreedFailure& failure) {
+        EXPECT_EQ(failure.code, code);
+      } catch (const Thrown&) {
+        EXPECT_EQ(code, 0);
+      }
+    };
+    expect([&] { in_agreement(ranks, body); });
+    expect([&] { exchange_in_agreement(ranks, body); });
+  });
+}
+
+TEST(Agreement, TellsFailuresOfAnyCodeFromVotes) {
+  for (const std::int32_t code : {-1, -2, -6, -100}) expect_agreed(Failure(code), code);
+  expect_agreed(std::bad_alloc(), -6);
+  expect_agreed(HiddenNode(), 0);
+  expect_agreed(PatchesDoNotPay(), 0);
 }
 
 bool gives_up(const std::string& family, int patches, std::size_t most_questions, ParallelCost& cost) {

@@ -502,6 +502,49 @@ TEST(AnyFiniteDouble, SameDirectionIsExact) {
   EXPECT_GE(same, cases(10000));
 }
 
+// Two decisions that compare products of many lengths, against arithmetic that does not round: no product
+// below needs more than 6000 bits.
+TEST(AnyFiniteDouble, LeftOfSumAndIsNearerAreExact) {
+  using Exact = boost::multiprecision::number<
+      boost::multiprecision::cpp_bin_float<6000, boost::multiprecision::digit_base_2>>;
+  struct Vector {
+    Exact x, y, z;
+    explicit Vector(const Point& p) : x(p.x), y(p.y), z(p.z) {}
+    Exact dot(const Vector& o) const { return x * o.x + y * o.y + z * o.z; }
+    Exact det(const Vector& b, const Vector& c) const {
+      return (y * b.z - z * b.y) * c.x + (z * b.x - x * b.z) * c.y + (x * b.y - y * b.x) * c.z;
+    }
+  };
+  Random random(11);
+  const auto length = [&](Point& p) {
+    static constexpr int exponents[] = {-1020, -530, -400, -130, 0, 135, 300, 500};
+    const int e = exponents[random.below(8)];
+    p = {std::ldexp(p.x, e), std::ldexp(p.y, e), std::ldexp(p.z, e)};
+  };
+  for (int i = 0; i < cases(4000); ++i) {
+    Point a = random.direction(), b = random.direction(), c = random.direction(), d;
+    const Point s = plus(plus({0, 0, 0}, random.uniform(-1, 1), a), random.uniform(-1, 1), b);
+    d = minus(s, c);  // c + d lies near the plane of a and b
+    length(a), length(b);
+    const Point given = c;
+    length(c);
+    const double by = given.x != 0 ? c.x / given.x : 1;
+    d = {by * d.x, by * d.y, by * d.z};
+    const Exact sum = Vector(a).det(Vector(b), Vector(c)) + Vector(a).det(Vector(b), Vector(d));
+    ASSERT_EQ(pstripack::left_of_sum(a, b, c, d), sum.sign()) << text({a, b, c, d});
+
+    Point p = random.direction();
+    const Point q = random.direction();
+    a = plus({0, 0, 0}, 0.5, q);
+    b = nudged(plus(plus({0, 0, 0}, -1, a), 2 * (a.x * p.x + a.y * p.y + a.z * p.z), p), random, 2);
+    length(a), length(b), length(p);  // a and its mirror image at p are as near to p
+    const Vector vp(p), va(a), vb(b);
+    const Exact to_a = va.dot(vp), to_b = vb.dot(vp),
+                nearer = to_a * abs(to_a) * vb.dot(vb) - to_b * abs(to_b) * va.dot(va);
+    ASSERT_EQ(pstripack::is_nearer(p, a, b), nearer > 0) << text({p, a, b, b});
+  }
+}
+
 TEST(SameDirection, LooksAtEveryComponent) {
   std::vector<Point> vectors;
   for (const double x : {-2., -1., 0., 1., 2.})

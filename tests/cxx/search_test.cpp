@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "point_sets.h"
+#include "stripack/coordinates_and_areas.h"
 #include "support/guarded.h"
 #include "support/kinds.h"
 #include "support/reference_predicates.h"
@@ -290,6 +291,22 @@ class Judge {
     return rightmost.count(at.i1) == 1 && leftmost.count(at.i2) == 1 ? "" : "other nodes are the ends";
   }
 
+  /// The largest error of the weights of p, of which the sum is 1.
+  double error_of_weights(const Vector<Real>& p, const Location<Int>& at, const Real (&b)[3]) const {
+    const Int node[3] = {at.i1, at.i2, at.i3};
+    Digits right[3], sum = 0, all = 0;
+    for (int k = 0; k < 3; ++k) {
+      const Vector<Real> v = mesh_.nodes()[node[(k + 1) % 3]], w = mesh_.nodes()[node[(k + 2) % 3]];
+      const Digits vx = v.x, vy = v.y, vz = v.z, wx = w.x, wy = w.y, wz = w.z;
+      right[k] = (vy * wz - vz * wy) * p.x + (vz * wx - vx * wz) * p.y + (vx * wy - vy * wx) * p.z;
+      sum += right[k], all += b[k];
+    }
+    double worst = all > 0 ? 0 : 1;
+    for (int k = 0; k < 3 && all > 0; ++k)
+      worst = std::max(worst, std::abs(static_cast<double>(b[k] / all - right[k] / sum)));
+    return worst;
+  }
+
   /// The cosines of the distances of all nodes.
   std::vector<Digits> cosines(const Vector<Real>& p) const {
     std::vector<Digits> all;
@@ -374,6 +391,9 @@ TYPED_TEST(NextNearest, TrfindAndNearndAreExact) {
     }
     for (const Point& p : point_sets::make("random", 10))
       places.push_back({static_cast<Real>(p.x), static_cast<Real>(p.y), static_cast<Real>(p.z)});
+    const auto is_unit = [](const Vector<Real>& v) {
+      return std::abs(dot(v, v) - 1) < 4 * std::numeric_limits<Real>::epsilon();
+    };
     for (const Vector<Real>& p : places) {
       if (p.x == 0 && p.y == 0 && p.z == 0) continue;
       const auto cosines = judge.cosines(p);
@@ -385,14 +405,14 @@ TYPED_TEST(NextNearest, TrfindAndNearndAreExact) {
         const std::string wrong = judge.of_trfind(p, at);
         ASSERT_EQ(wrong, "") << name << ": " << p.x << ' ' << p.y << ' ' << p.z << " from " << start << ": "
                              << at.i1 << ' ' << at.i2 << ' ' << at.i3;
+        if (at.i3 != 0 && is_unit(p) && is_unit(mesh.nodes()[at.i1]) && is_unit(mesh.nodes()[at.i2])) {
+          ASSERT_LE(judge.error_of_weights(p, at, {b1, b2, b3}), 0x1p-20) << name << " from " << start;
+        }
         const Int nearest = nearnd(p, start, mesh.lists(), mesh.nodes(), angle);
         ASSERT_EQ(cosines[static_cast<std::size_t>(nearest - 1)], greatest)
             << name << " from " << start << ": " << nearest;
         // Beyond 0.03 the arc cosine, as the original's: its rounding grows with the inverse of the angle.
         const double rounding = 4 * std::numeric_limits<Real>::epsilon();
-        const auto is_unit = [](const Vector<Real>& v) {
-          return std::abs(dot(v, v) - 1) < 4 * std::numeric_limits<Real>::epsilon();
-        };
         if (is_unit(p) && is_unit(mesh.nodes()[nearest])) {  // as the original asks
           ASSERT_NEAR(angle, distance, rounding * (distance + (distance < 0.03 ? 0 : 1 / std::sin(distance))))
               << name;
@@ -420,5 +440,40 @@ TYPED_TEST(NextNearest, GetnpIsExactInClusters) {
       ASSERT_GE(now, before) << width << ", L = " << l;
       before = now;
     }
+  }
+}
+
+/// Areas of needles, flat and tiny triangles, in either orientation, against van Oosterom & Strackee's
+/// formula in 100 digits.
+TEST(Areas, AreRightToTwentyBits) {
+  using Digits = boost::multiprecision::cpp_bin_float_100;
+  const auto area_of = [](const Vector<double>(&v)[3]) {
+    Digits p[3][3];
+    for (int k = 0; k < 3; ++k) {
+      const Digits x = v[k].x, y = v[k].y, z = v[k].z, l = sqrt(x * x + y * y + z * z);
+      p[k][0] = x / l, p[k][1] = y / l, p[k][2] = z / l;
+    }
+    const auto dot = [&](int i, int j) -> Digits {
+      return p[i][0] * p[j][0] + p[i][1] * p[j][1] + p[i][2] * p[j][2];
+    };
+    const Digits det = p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) +
+                       p[0][1] * (p[1][2] * p[2][0] - p[1][0] * p[2][2]) +
+                       p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0]);
+    return Digits(abs(2 * atan2(det, Digits(1 + dot(0, 1) + dot(1, 2) + dot(2, 0)))));
+  };
+  point_sets::Random random(3);
+  for (int k = 0; k < 3000; ++k) {
+    const double width = std::pow(10, -random.uniform(0, 14)), thin = std::pow(10, -random.uniform(0, 8)),
+                 length = k % 2 == 0 ? 1 : random.uniform(0.1, 1e7);
+    const Point g = random.direction(), e = random.direction(), f = random.direction();
+    Vector<double> v[3];
+    for (Vector<double>& p : v) {
+      const double x = width * random.uniform(-1, 1), y = width * thin * random.uniform(-1, 1);
+      p = {length * (g.x + x * e.x + y * f.x), length * (g.y + x * e.y + y * f.y),
+           length * (g.z + x * e.z + y * f.z)};
+    }
+    const Digits area = area_of(v);
+    ASSERT_LE(abs(Digits(areas(v[0], v[1], v[2]) - area)), Digits(0x1p-20 * area)) << width << ' ' << thin;
+    ASSERT_EQ(areas(v[0], v[0], v[2]), 0);
   }
 }

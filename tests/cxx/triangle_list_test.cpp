@@ -232,6 +232,31 @@ TEST(TriangleList, NumbersTrianglesOfTheVoronoiDiagram) {
     }
 }
 
+TEST(CellAreas, NameNodesThatAreTooClose) {
+  std::vector<Point> set{{1, 0, 0}, {0, 1, 0}, {0, 0, -1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}};
+  for (const double w : {1e-150, 1e-160, 1e-300}) {
+    set.resize(6);
+    for (const Point& p : {Point{w, 0, 1}, Point{0, 2 * w, 1}, Point{-2 * w, 0, 1}, Point{0, -2 * w, 1}})
+      set.push_back(p);
+    const Plain lists = plain_lists(set, Slots::canonical);
+    Arrays<std::int32_t> arrays(lists);
+    const Directions directions(set.data(), set.size());
+    std::vector<double> area(set.size());
+    if (w == 1e-150) {
+      EXPECT_TRUE(cell_areas(arrays.view(), directions, area.data()));
+      EXPECT_GT(area[5], 2e-300);
+      continue;
+    }
+    try {
+      cell_areas(arrays.view(), directions, area.data());
+      ADD_FAILURE() << w;
+    } catch (const NodesTooClose& nodes) {
+      EXPECT_EQ(nodes.first, 6);
+      EXPECT_EQ(nodes.second, 7);
+    }
+  }
+}
+
 /// Neighbours of one node in a wrong order: every node still lists every neighbour.
 TEST(TriangleList, RefusesRingsThatContradictEachOther) {
   const std::vector<Point> set = point_sets::make("random", 200);

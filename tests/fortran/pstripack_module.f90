@@ -1,13 +1,18 @@
 ! Module pstripack, the binding for new codes.
 program pstripack_module
-  use, intrinsic :: iso_c_binding, only: c_double, c_float, c_int32_t, c_int64_t
+  use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_float, c_int32_t, c_int64_t, c_loc
   use pstripack
   use expectations
   use random_points
   implicit none
   integer, parameter :: n = 500, slots = 6*n - 12
-  real(c_double) :: x(n), y(n), z(n), p(3)
-  integer(c_int32_t) :: list(slots), lptr(slots), lend(n), lnew, ier
+  integer(c_int64_t), parameter :: too_many = 2_c_int64_t**31 + 100
+  real(c_double), target :: x(n)
+  real(c_double) :: y(n), z(n), p(3)
+  real(c_double), pointer, contiguous :: many(:)
+  integer(c_int32_t), target :: list(slots)
+  integer(c_int32_t), pointer, contiguous :: many_slots(:)
+  integer(c_int32_t) :: lptr(slots), lend(n), lnew, ier
   integer(c_int64_t) :: print_of_all
   character(len=200) :: message
   integer :: k
@@ -50,6 +55,16 @@ program pstripack_module
   call expect(pstripack_validate(x, y, z, list, lptr, lend(2:), lnew) == pstripack_bad_size, "lend too short")
   call pstripack_trmesh(x(:2), y(:2), z(:2), list, lptr, lend, lnew, ier)
   call expect(ier == pstripack_too_few_nodes, "two nodes")
+  call expect(pstripack_fingerprint(list(2:), lptr, lend) == 0, "fingerprint: list too short")
+
+  ! More nodes than 32 bits count: nothing of them is read.
+  call c_f_pointer(c_loc(x), many, [too_many])
+  call c_f_pointer(c_loc(list), many_slots, [6*too_many])
+  call pstripack_trmesh(many, many, many, many_slots, many_slots, many_slots, lnew, ier)
+  call expect(ier == pstripack_too_many_nodes, "2**31 nodes")
+  call expect(pstripack_validate(many, many, many, many_slots, many_slots, many_slots, lnew) == &
+              pstripack_too_many_nodes, "validate: 2**31 nodes")
+  call expect(pstripack_fingerprint(many_slots, many_slots, many_slots) == 0, "fingerprint: 2**31 nodes")
   call threads_at_once
 
 contains

@@ -183,6 +183,13 @@ program scvt_module
   options = pstripack_scvt_options(tolerance=1e-2_c_double)
   call pstripack_scvt_widths(x, y, z, found, ier, bump_for_fortran, options, well_centred=.true., message=message)
   call expect(ier == 0 .and. message == "" .and. same_generators() .and. same(found, expected), "widths")
+  x = 0
+  options%widths = .true.
+  options%well_centred = .true.
+  call pstripack_scvt(x, y, z, found, ier, bump_for_fortran, options)
+  call expect(ier == 0 .and. same_generators() .and. same(found, expected), "widths, by the options")
+  options%widths = .false.
+  options%well_centred = .false.
   call pstripack_scvt_widths(x, y, z, found, ier, negative, options, message=message)
   call expect(ier == pstripack_bad_density .and. index(message, "the width is ") == 1, "a bad width: "//message)
   call pstripack_scvt_cells(two, 100._c_double, energy, ier, message)

@@ -144,6 +144,7 @@ contains
     options%start = pstripack_scvt_given
     options%tolerance = 1e-9_real64
     options%most_evaluations = 20
+    options%widths = .true.
     x = all(1, :)
     y = all(2, :)
     z = all(3, :)
@@ -163,6 +164,7 @@ contains
     if (found%generators /= size(number) .or. found%reason /= expected%reason) error stop "another result"
     if ((steps > 0) .neqv. (rank == 0)) error stop "progress is told to rank 0"
 
+    options%widths = .false.
     steps = 0
     last_step = 2
     call mesh%scvt(xyz, number, found, ier, options=options, progress=progress)

@@ -81,10 +81,11 @@ void keep(const Stars<Int>& stars, const LocalNodes& nodes, std::size_t rank, co
 }
 
 /// homes: of the ranks in the last call, then in this one. With neighbours, nodes are counted through all
-/// ranks; in the outcome they always have their numbers in `nodes`.
+/// ranks; in the outcome they always have their numbers in `nodes`. patches: of each rank, if not the same.
 template <class Int>
 Outcome run(const Nodes& nodes, const std::vector<std::size_t>& rank_of_node,
-            const ParallelOptions& all_options, std::vector<std::unique_ptr<Homes>>& homes) {
+            const ParallelOptions& all_options, std::vector<std::unique_ptr<Homes>>& homes,
+            const std::vector<int>& patches = {}) {
   const std::size_t n = nodes.size(), size = homes.size();
   std::vector<Nodes> points(size);
   std::vector<std::vector<std::int64_t>> numbers(size);
@@ -117,6 +118,7 @@ Outcome run(const Nodes& nodes, const std::vector<std::size_t>& rank_of_node,
                            ranges.first(r)};
     ParallelOptions options = all_options;
     options.last = homes[r].get();
+    if (!patches.empty()) options.patches = patches[r];
     try {
       const Point corners[3] = {nodes[0], nodes[1], nodes[2]};
       Stars<Int> stars = triangulate<Int>(local, check_of_all(local, ranks), corners,

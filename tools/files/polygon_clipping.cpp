@@ -1,11 +1,14 @@
 // Voronoi cells cut at polygons.
 //
+// clang-format off
 //          chain         A cell is convex. What is left of a polygon's rings in it are chains, with the
-//          polygon on
-//      .---X<--.         their left, that enter the cell (E) and leave it (X), and rings within the cell.
-//      From |    \   \        where a chain leaves, the border of the part follows the cell's border,
-//      counterclockwise, |     \   |       to where the next chain enters. |      E--'
+//      .---X<--.         polygon on their left, that enter the cell (E) and leave it (X), and rings
+//      |    \   \        within the cell. From where a chain leaves, the border of the part follows the
+//      |     \   |       cell's border, counterclockwise, to where the next chain enters.
+//      |      E--'
 //      '-->---'  cell
+// clang-format on
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -160,27 +160,56 @@ bool Interpolation::search(const Direction& place, std::int32_t& near, Corners& 
   return found.i3 != 0;
 }
 
-/// The triangle that contains the place, from one near it; false if the place is outside. One within
-/// kOnBorder of the border is moved inside.
-bool Interpolation::settle(Direction& place, std::int32_t& near, Corners& corners) const {
-  const auto is_inside = [&] {
-    if (!cross_arcs(place, corners)) return false;
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-    return true;
+/// The triangle at the arc of the border that is nearest to the place, which sees the arc from `first` on.
+void Interpolation::find_nearest_on_border(const Direction& place, std::int32_t first,
+                                           Corners& corners) const {
+  const Reader reader(mesh_.lists);
+  const auto sees = [&](std::int32_t from, std::int32_t to) { return side_of_arc(from, to, place) < 0; };
+  const auto distance = [&](std::int32_t from, std::int32_t to) {
+    const Direction a = mesh_.direction(from), b = mesh_.direction(to);
+    if (is_beyond(place, a, b)) return arc_length(place, a);
+    if (is_beyond(place, b, a)) return arc_length(place, b);
+    const Point n = cross(a.high, accurate_difference(b, a));
+    return std::fabs(dot(n, accurate_difference(place, a))) / std::sqrt(square(n));
   };
-  if (is_inside()) return true;
-  if (first_boundary_node_ == 0) return false;
-  const Point& p = place.high;
-  const Point inwards = minus(middle_, p);
-  const double step = std::min(kOnBorder + kRounding / std::sqrt(square(inwards)), 0.5);
-  place = pstripack::direction_of({p.x + step * inwards.x, p.y + step * inwards.y, p.z + step * inwards.z});
-  search(place, near, corners);
-  return is_inside();
+  std::int32_t rightmost = first, nearest = 0;
+  for (std::int32_t r; (r = reader.last_neighbour(rightmost)) != first && sees(r, rightmost);) rightmost = r;
+  double least = std::numeric_limits<double>::infinity();
+  std::int32_t r = rightmost;
+  do {
+    const std::int32_t l = reader.first_neighbour(r);
+    const double d = distance(r, l);
+    if (d < least || (d == least && r < nearest)) least = d, nearest = r;
+    r = l;
+  } while (r != rightmost && sees(r, reader.first_neighbour(r)));
+  const std::int32_t slot = reader.first_slot(nearest);
+  corners = {nearest, reader.neighbour(slot), reader.neighbour(reader.next(slot))};
 }
 
-bool Interpolation::find(Direction& place, std::int32_t& near, Corners& corners) const {
+/// The triangle that contains the place, from one near it; false if the place is outside. One that would be
+/// inside if it were moved by kOnBorder and kRounding has the triangle at the nearest arc of the border.
+bool Interpolation::settle(const Direction& place, std::int32_t& near, Corners& corners,
+                           bool& is_beyond_border) const {
+  is_beyond_border = !cross_arcs(place, corners);
+  if (is_beyond_border) {
+    if (first_boundary_node_ == 0) return false;
+    const std::int32_t seen = corners[0];
+    const Point &p = place.high, inwards = minus(middle_, p);
+    const double step = std::min(kOnBorder + kRounding / std::sqrt(square(inwards)), 0.5);
+    const Direction moved =
+        pstripack::direction_of({p.x + step * inwards.x, p.y + step * inwards.y, p.z + step * inwards.z});
+    search(moved, near, corners);
+    if (!cross_arcs(moved, corners)) return false;
+    find_nearest_on_border(place, seen, corners);
+  }
+  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+  return true;
+}
+
+bool Interpolation::find(const Direction& place, std::int32_t& near, Corners& corners,
+                         bool& is_beyond_border) const {
   search(place, near, corners);
-  return settle(place, near, corners);
+  return settle(place, near, corners, is_beyond_border);
 }
 
 std::size_t Interpolation::corner_at(const Direction& place, const Corners& corners) const {
@@ -205,7 +234,8 @@ void Interpolation::take(const Corners& corners, const double (&weights)[3], std
 
 bool Interpolation::barycentric(const Point& p, std::int32_t& near, Corners& corners,
                                 double (&weights)[3]) const {
-  Direction place = pstripack::direction_of(p);
+  const Direction place = pstripack::direction_of(p);
+  bool is_beyond_border;
   if (search(place, near, corners)) {
     const std::array<Direction, 3> at = directions(corners);
     if (find_ordinary_determinants(place, pointers(at), weights)) {
@@ -213,7 +243,7 @@ bool Interpolation::barycentric(const Point& p, std::int32_t& near, Corners& cor
       return true;
     }
   }
-  if (!settle(place, near, corners)) return false;
+  if (!settle(place, near, corners, is_beyond_border)) return false;
   if (const std::size_t node = corner_at(place, corners); node < 3) {
     for (std::size_t k = 0; k < 3; ++k) weights[k] = k == node ? 1 : 0;
     return true;
@@ -275,14 +305,15 @@ bool Interpolation::natural(const Point& p, std::int32_t& near, std::vector<Shar
   thread_local std::vector<std::int32_t> nodes;
   thread_local pstripack::Cavity cavity;
   shares.clear();
-  Direction place = pstripack::direction_of(p);
+  const Direction place = pstripack::direction_of(p);
   Corners corners;
-  if (!find(place, near, corners)) return false;
+  bool is_beyond_border;
+  if (!find(place, near, corners, is_beyond_border)) return false;
   if (const std::size_t node = corner_at(place, corners); node < 3) {
     shares.push_back({corners[node], 1});
     return true;
   }
-  if (!dig(place, corners, nodes, cavity)) {
+  if (is_beyond_border || !dig(place, corners, nodes, cavity)) {
     double weights[3];
     const std::array<Direction, 3> at = directions(corners);
     barycentric_weights(place, pointers(at), weights);

@@ -24,9 +24,9 @@ struct Share {
 /// A triangulation for interpolation. Several threads may call its members at the same time.
 ///
 /// Places are vectors of any length, and like the nodes they mean their directions. A place outside the
-/// triangles counts as on their border if it is moved inside by 1e-12 of the way to the middle of the nodes
-/// and 4e-16 rad. `near` is the node, from 1, at which the search starts; it is set to a node near the place.
-/// Keep it between successive places; the shares do not depend on it.
+/// triangles counts as on their border, at the nearest point of it, if it is moved inside by 1e-12 of the way
+/// to the middle of the nodes and 4e-16 rad. `near` is the node, from 1, at which the search starts; it is
+/// set to a node near the place. Keep it between successive places; the shares do not depend on it.
 ///
 /// The shares of a place are positive with sum 1; at a node, that node has the whole share.
 /// geometry/weights.h has the bounds of their errors.
@@ -39,8 +39,8 @@ class Interpolation {
   using Corners = std::array<std::int32_t, 3>;
   /// The triangle that contains p. False outside the triangles.
   bool triangle(const Point& p, std::int32_t& near, Corners& corners) const {
-    Direction place = pstripack::direction_of(p);
-    return find(place, near, corners);
+    bool is_beyond_border;
+    return find(pstripack::direction_of(p), near, corners, is_beyond_border);
   }
 
   /// The corners of the triangle a, b, c that contains p, with the barycentric coordinates of the point where
@@ -96,9 +96,10 @@ class Interpolation {
 
  private:
   using Direction = pstripack::Direction;
-  bool find(Direction& place, std::int32_t& near, Corners& corners) const;
+  bool find(const Direction& place, std::int32_t& near, Corners& corners, bool& is_beyond_border) const;
   bool search(const Direction& place, std::int32_t& near, Corners& corners) const;
-  bool settle(Direction& place, std::int32_t& near, Corners& corners) const;
+  bool settle(const Direction& place, std::int32_t& near, Corners& corners, bool& is_beyond_border) const;
+  void find_nearest_on_border(const Direction& place, std::int32_t first, Corners& corners) const;
   int side_of_arc(std::int32_t a, std::int32_t b, const Direction& place) const;
   bool cross_arcs(const Direction& place, Corners& corners) const;
   static void take(const Corners& corners, const double (&weights)[3], std::vector<Share>& shares);

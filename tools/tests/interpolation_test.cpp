@@ -353,6 +353,24 @@ TEST(outside, is_what_lies_beyond_the_border_but_not_the_border) {
   EXPECT_GT(result.outside, 450u);
 }
 
+TEST(outside, beside_the_border_has_the_weights_of_the_nearest_arc) {
+  // A triangle of 1e-12. Places a little outside an arc, and beyond its ends.
+  const double w = 1e-12, off = 1e-16;
+  const Interpolation in = interpolation_between({{w, 0, 1}, {0, w, 1}, {-w, 0, 1}});
+  for (const Method method : {Method::linear, Method::natural})
+    for (const double x : {-w - 1e-16, -w, -0.5 * w, 0.0, 0.25 * w, w, w + 1e-16}) {
+      std::vector<Share> shares;
+      ASSERT_TRUE(shares_at(in, method, {x, -off, 1}, shares)) << x;
+      double part[5] = {};
+      for (const Share& s : shares) part[s.node] = s.part;
+      const double right = std::clamp(0.5 + 0.5 * x / w, 0.0, 1.0);
+      const double nearly = off * off / (w * w);  // by sines of the distances to the ends
+      EXPECT_NEAR(part[1], right, nearly) << x;
+      EXPECT_NEAR(part[3], 1 - right, nearly) << x;
+      EXPECT_EQ(part[2], 0) << x;
+    }
+}
+
 TEST(nearest, is_the_nearest_of_all_nodes_wherever_the_place) {
   for (const char* const family :
        {"random", "hemisphere", "cap", "cap:0.8", "cap:1.4", "strip:1e-9", "box"}) {

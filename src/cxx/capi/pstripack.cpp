@@ -14,6 +14,7 @@
 #include "capi/version.h"
 #include "geometry/node_arrays.h"
 #include "lists/adjacency_lists.h"
+#include "lists/limits.h"
 #include "observe/check.h"
 #include "observe/report.h"
 #include "stripack/original/original_rules.h"
@@ -229,6 +230,10 @@ int32_t pstripack_validate(int32_t n, const double* x, const double* y, const do
       say(pstripack_strerror(PSTRIPACK_TOO_FEW_NODES));
       return PSTRIPACK_TOO_FEW_NODES;
     }
+    if (n > most_nodes<std::int32_t>()) {
+      say(pstripack_strerror(PSTRIPACK_TOO_MANY_NODES));
+      return PSTRIPACK_TOO_MANY_NODES;
+    }
     std::vector<Point> p(static_cast<std::size_t>(n));
     for (std::size_t i = 0; i < p.size(); ++i) p[i] = {x[i], y[i], z[i]};
     const ListsView<std::int32_t> lists{p.size(), list, lptr, lend, lnew};
@@ -248,6 +253,7 @@ int32_t pstripack_validate(int32_t n, const double* x, const double* y, const do
 
 uint64_t pstripack_fingerprint(int32_t n, const int32_t* list, const int32_t* lptr, const int32_t* lend) {
   try {
+    if (n > most_nodes<std::int32_t>()) return 0;
     const ListsView<std::int32_t> lists{static_cast<std::size_t>(n < 0 ? 0 : n), list, lptr, lend, 0};
     return check_lists(lists) ? fingerprint(triangles_of(lists)) : 0;
   } catch (...) {

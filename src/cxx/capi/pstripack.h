@@ -79,10 +79,11 @@ PSTRIPACK_API int32_t pstripack_delaunay(int32_t n, const double* x, const doubl
                                          int32_t* list, int32_t* lptr, int32_t* lend, int32_t* lnew);
 
 /* Validates lists as of pstripack_trmesh or pstripack_delaunay. Returns 0 if they are a correct triangulation
- * of the nodes: well formed, every triangle counterclockwise, every arc locally Delaunay (exact signs, ties
- * by the rule), sphere or hull covered once. Otherwise returns the number of the violated property (> 0), or
- * -1 or -6. lnew     0 if it is not known message  out, may be NULL: the defect and the nodes; at most
- * `length` bytes, including the closing zero
+ * of the nodes: well formed, every triangle counterclockwise, every arc locally Delaunay (exact signs, ties by
+ * the rule), sphere or hull covered once. Otherwise returns the number of the violated property (> 0), or
+ * -1, -4 or -6.
+ *   lnew     0 if it is not known
+ *   message  out, may be NULL: the defect and the nodes; at most `length` bytes, including the closing zero
  */
 PSTRIPACK_API int32_t pstripack_validate(int32_t n, const double* x, const double* y, const double* z,
                                          const int32_t* list, const int32_t* lptr, const int32_t* lend,

@@ -49,7 +49,7 @@ struct Axes {
   explicit Axes(const Point& a) {
     const double u = std::fabs(a.x), v = std::fabs(a.y), w = std::fabs(a.z);
     first = u >= v ? (u >= w ? 0 : 2) : (v >= w ? 1 : 2);
-    negative = (&a.x)[first] < 0;
+    negative = (*this)(a).x < 0;
   }
   Point operator()(const Point& p) const {
     if (first == 0) return p;
@@ -84,8 +84,8 @@ struct Scale {
 // absolute values, which are computed alongside (py of N.y, and so on):
 //   e        a component k is known to 2.1u of itself and t_k = 2^-99 m_k + 2^-1068, m_k the larger of |a_k|
 //            and |p_k|: high - high adds u unless it is exact (Sterbenz), then the last sum another u; the
-//            directions are known to 2^-101 m_k each, and the difference of the low parts rounds by 2^-105
-//            m_k
+//            directions are known to 2^-101 m_k each, and the difference of the low parts, each below 2^-51
+//            m_k, rounds by 2^-103 m_k
 //   N        2.1u, the rounding of a, of the product, of the difference: 5.2u py, and |a_z| t_x + |a_x| t_z,
 //            which is less than 5.2u 2^-47 (m_z + 2^-963): that is added to py. For N.x: 2^-47 m_y m_z. Or a
 //            is not rounded, but longer by at most 4u: that multiplies all N alike
@@ -429,12 +429,14 @@ int orientation_of_directions(const Point& a, const Point& b, const Point& c, co
 }
 
 bool is_nearer(const Point& p, const Point& a, const Point& b) {
-  // With A = a.p and B = b.p, compare A |A| b.b with B |B| a.a. In doubles each has 4 roundings of the sums
-  // of three and 3 products, twice: less than 16u of |p|^2 a.a b.b.
+  // With A = a.p and B = b.p, compare A |A| b.b with B |B| a.a. In doubles each has the three roundings of
+  // three dot products and two of their product, 11u of |p|^2 a.a b.b: 22u together, and `size` has 11u of
+  // itself.
   const double dot_a = dot(a, p), dot_b = dot(b, p), aa = dot(a, a), bb = dot(b, b);
   const double difference = dot_a * std::fabs(dot_a) * bb - dot_b * std::fabs(dot_b) * aa;
-  const double size = dot(p, p) * aa * bb;
-  if (size > 0x1p-800 && size < 0x1p800 && std::fabs(difference) > 32 * u * size) return difference > 0;
+  const double pp = dot(p, p), size = pp * aa * bb;
+  const bool all_moderate = is_moderate_square(pp) && is_moderate_square(aa) && is_moderate_square(bb);
+  if (all_moderate && std::fabs(difference) > 32 * u * size) return difference > 0;
   const auto exactly = [&](auto zero) {
     using Int = decltype(zero);
     const auto vector = [](const Point& v) { return exact::scaled<Int>(v, exact::span_of(v).low); };

@@ -20,10 +20,28 @@
 // nothing larger is subtracted, however small the cell is. At the back of the hull the formulas hold, too:
 // there cos R < 0.
 //
-// The ordinary triangles of measures.h, in doubles: the sides e and f have errors of 2u of each component and
-// 2^-99, together below 2.5u of their lengths if these are at least 2^-45; n and the vector |f|^2 e - |e|^2 f
-// have errors of 8u and 14u over the sine of the angle at a, which is at least 1/8, in the worst case, in
-// which all roundings have one sign and all components are large. All other steps round by some u.
+// The ordinary triangles of measures.h, in doubles, where all roundings have one sign and all components are
+// large. s is the sine of the angle at a.
+//   sides    e and f: 2u of each component and 2^-98.5, together below 2.75u of their lengths if these are at
+//            least 2^-45, and below 2.03u if at least 2^-40. Shorter ones have R < 2^-35.
+//   n        by e and f at most 2 * 2.03u |e| |f|; by its products 1.16u |e| |f| (the vector with components
+//            |e.y f.z| + |e.z f.y| is no longer than sqrt(4/3) |e| |f|), by their difference u |n|
+//   area     det = a.n, with n's error, 3u |n| of the sum and u |n| of a: relative to itself 5.22u / (s c) +
+//   5u /
+//            c with c = cos R = det / |n|. s c >= 1/8 is required; by |g| <= 0.633 and s = |g| / 2 sin R that
+//            makes c >= 0.367. So det has 41.8u + 13.6u. The denominator, above 3.7, has 1.8u, the quotient
+//            u, the arc tangent or its series 2u: 61u. (Sides below 2^-40: 6.6u / s + 5u + 5u <= 63u.)
+//   centre   Moving b by d moves C by at most |C| d / (|e| s), in the plane and with it; so e and f move it
+//   by
+//            4.06u / s of itself, 33u. n's own rounding, 1.16u / s + u, does as much, 10u, as n / |n|^2 is an
+//            inversion. |f|^2 e - |e|^2 f = w has 4u (|e| + |f|) |e| |f| <= 4u |w| / sin(angle / 2), 64u, and
+//            u. All other steps: less than 13u. So C has 121u (133u if sides are below 2^-40), and C / cos R
+//            that times tan(R) / R of the radius, 1.1 up to 30 degrees and 1.66 up to 60. The square of sin R
+//            has 102u; that moves the result along itself by 102u tan(R)^2 / 2 in addition, 32u of R at 30
+//            degrees and 146u at 60. With 10u for the rest: 133u + 32u + 10u, and 201u + 146u + 10u.
+// Where doubles do not suffice the normal has 32u, or has 8u / s <= 32u by its two shorter sides, for which
+// sin(angle / 2) >= 1/2: C has less than 75u. The radius has the normal's 32u and 15u for the three lengths
+// and the rest, times 1.66.
 //
 // Each function of an arithmetic T finds its result and a bound of its error; if that is too large, the next
 // arithmetic tries.
@@ -78,7 +96,8 @@ struct TriangleBySides {
     for (int k = 0; k < 3; ++k) {
       const Point s = as_point(side[k], -exponent);
       square[k] = dot(s, s);
-      size[k] = std::sqrt(square[k]);
+      size[k] = square[k] > 0x1p-900 ? std::sqrt(square[k])  // else the square may underflow
+                                     : A::value(A::square_root(dot(side[k], side[k])), -exponent);
     }
     first = (longest_of(square) + 2) % 3, second = (first + 2) % 3;
     normal = cross(side[second], side[first]);
@@ -126,9 +145,11 @@ bool find_circumcircle(const Direction (&corner)[3], Circumcircle& circle) {
     circle = {n, 2 * std::asin(std::sqrt(square_of(offset)) / 2)};
   } else {
     const double cosine = std::sqrt((1 - sine) * (1 + sine)), above = sine * sine / (1 + cosine);
-    // C, in the unit of the sides: the side f leads to the apex, so f is -f here.
-    const Point c = scaled(0.5 / (t.size_across * t.size_across),
-                           cross(normal, {ff * e.x + ee * f.x, ff * e.y + ee * f.y, ff * e.z + ee * f.z}));
+    // C, in the unit of the sides: the side f leads to the apex, so f is -f here. Divided by |n| twice, whose
+    // square may underflow.
+    const Point c =
+        scaled(0.5 / t.size_across, cross(scaled(1 / t.size_across, normal),
+                                          {ff * e.x + ee * f.x, ff * e.y + ee * f.y, ff * e.z + ee * f.z}));
     const double unit = std::ldexp(1, t.exponent);
     const auto coordinate = [&](double high, double low, double in_plane) {
       return high + (low + (unit * in_plane + above * high) / cosine);
@@ -337,8 +358,9 @@ Angles angles_of(const Direction& a, const Direction& b, const Direction& c) {
 
 double cell_area(const Direction& v, const Direction* ring, std::size_t count) {
   double area = kNone;
-  with_enough_bits([&](auto zero) { return find_cell_area<decltype(zero)>(v, ring, count, area); });
-  return area;
+  const bool found =
+      with_enough_bits([&](auto zero) { return find_cell_area<decltype(zero)>(v, ring, count, area); });
+  return found && area >= std::numeric_limits<double>::min() ? area : kNone;
 }
 
 }  // namespace pstripack

@@ -6,10 +6,11 @@
 // differences of exact directions, and each step has a bound. Where doubles do not meet it, double-doubles
 // follow, and then floating-point numbers of 256, 1280 and 9216 bits.
 //
-// For finite vectors with different directions, from 1e-150 rad apart to opposite ones, with u = 2^-53:
-//   length, radius   8u of itself; of a radius beyond 60 degrees 64u rad
-//   circumcentre     64u of the radius, and the rounding of its three coordinates
-//   area             64u of itself, that of a cell 128u
+// For finite vectors with different directions, from 1e-300 rad apart to opposite ones, with u = 2^-53:
+//   length           8u of itself
+//   radius           80u of itself; beyond 60 degrees 64u rad
+//   circumcentre     192u of the radius, beyond 30 degrees 384u, and the rounding of its three coordinates
+//   area             64u of itself and 2^-1074; that of a cell 128u of itself, NaN below 2^-1022
 // These are bounds of the analysis in measures.cpp; docs/trust.md has the errors seen.
 
 #include <cmath>
@@ -55,12 +56,12 @@ inline bool find_ordinary_centre(const UnitVector& a, const UnitVector& b, const
   return true;
 }
 
-/// The area of a counterclockwise triangle, if doubles suffice: under the same conditions, with sides below
-/// 18 degrees at `a`. See measures.cpp.
+/// The area of a counterclockwise triangle, if doubles suffice: if its sides at `a` are below 18 degrees and
+/// not very small, and it is neither flat at `a` nor nearly in a plane with the centre. See measures.cpp.
 inline bool find_ordinary_area(const UnitVector& a, const UnitVector& b, const UnitVector& c, double& area) {
   const Point e = difference(b, a), f = difference(c, a), g = minus(f, e), n = cross(e, f);
   const double ee = dot(e, e), ff = dot(f, f), det = dot(n, a.high);
-  const bool is_ordinary = (dot(n, n) >= 0x1p-6 * (ee * ff)) & (ee >= 0x1p-90) & (ff >= 0x1p-90) &
+  const bool is_ordinary = (det * det >= 0x1p-6 * (ee * ff)) & (ee >= 0x1p-90) & (ff >= 0x1p-90) &
                            (ee <= 0.1) & (ff <= 0.1) & (det > 0);
   if (__builtin_expect(!is_ordinary, false)) return false;
   const double tangent = det / (4 - 0.5 * (ee + ff + dot(g, g))),

@@ -19,6 +19,11 @@ inline Point cross(const Point& a, const Point& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+/// True for the square of a length from 2^-150 to 2^150. A product of at most six such lengths and components
+/// of theirs does not overflow, and where a factor of it underflows, that changes it by less than 2^-1074 /
+/// 2^-900 of the product of the lengths: far less than the roundings that filters allow for.
+inline bool is_moderate_square(double square) { return square > 0x1p-300 && square < 0x1p300; }
+
 /// Finite, and not zero.
 inline bool has_direction(const Point& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && p != Point{0, 0, 0};

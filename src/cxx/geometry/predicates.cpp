@@ -93,7 +93,7 @@ int exact_orientation(const Point& a, const Point& b, const Point& c, const Poin
 }
 
 // Differences are exact sums of two doubles. In units of u^2: minors 6 + 4, their products 6, two sums 4
-// each: 24 of the permanent, and 2^-99 is 32 of it with its rounding and higher orders.
+// each: 24 of the permanent. 2^-99 is 128 of it, far more than its rounding and higher orders need.
 constexpr double kFineFactor = 0x1p-99;
 
 int fine_orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
@@ -142,8 +142,10 @@ int left_of_sum(const Point& a, const Point& b, const Point& c, const Point& d) 
   const auto det = [](const Point& p, const Point& q, const Point& r) { return dot(cross(p, q), r); };
   const auto size = [](const Point& p) { return std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z); };
   const double value = det(a, b, c) + det(a, b, d), bound = size(a) * size(b) * (size(c) + size(d));
+  const bool all_moderate = is_moderate_square(dot(a, a)) && is_moderate_square(dot(b, b)) &&
+                            is_moderate_square(dot(c, c)) && is_moderate_square(dot(d, d));
   // Each of the terms, at most the bound together, has 8 roundings.
-  if (bound > 0x1p-800 && bound < 0x1p800 && std::fabs(value) > 0x1p-48 * bound) return value > 0 ? 1 : -1;
+  if (all_moderate && std::fabs(value) > 0x1p-48 * bound) return value > 0 ? 1 : -1;
   using exact::Integer;
   exact::Span together = exact::span_of(c);
   together.join(d);

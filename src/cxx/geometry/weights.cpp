@@ -309,6 +309,17 @@ class Star {
 
 }  // namespace
 
+bool is_beyond(const Direction& place, const Direction& b, const Direction& from) {
+  // The components at a right angle to b of the differences e, which is scaled against underflow, and f:
+  // their product is e.f - (e.b) (f.b) with e.b = -|e|^2/2. What e.f loses by rounding is below 8u of |e|
+  // |f|.
+  Point e = accurate_difference(from, b);
+  const Point f = accurate_difference(place, b);
+  const double scale = 1 / std::max({std::fabs(e.x), std::fabs(e.y), std::fabs(e.z)}), ee = dot(e, e);
+  e = {scale * e.x, scale * e.y, scale * e.z};
+  return dot(e, f) - scale * ee * dot(f, f) / 4 <= 0;
+}
+
 void barycentric_weights(const Direction& place, const Corners& corner, double (&weight)[3]) {
   if (!find_ordinary_determinants(place, corner, weight)) {
     int exponent = 0;
@@ -322,7 +333,9 @@ void barycentric_weights(const Direction& place, const Corners& corner, double (
       }
       const Direction &b = *corner[(k + 1) % 3], &c = *corner[(k + 2) % 3];
       if (left(place.given, b.given, c.given) <= 0) {
-        const double of_b = sine_between(place, c), of_c = sine_between(place, b);
+        double of_b = sine_between(place, c), of_c = sine_between(place, b);
+        if (is_beyond(place, b, c)) of_c = 0;
+        if (is_beyond(place, c, b)) of_b = 0;
         weight[k] = 0, weight[(k + 1) % 3] = of_b / (of_b + of_c), weight[(k + 2) % 3] = of_c / (of_b + of_c);
         return;
       }

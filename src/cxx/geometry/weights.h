@@ -22,7 +22,8 @@ using Corners = std::array<const Direction*, 3>;
 
 /// The barycentric weights of a place in a counterclockwise triangle: det(place, next corner, last corner)
 /// for each corner, over their sum. On an arc, or beyond it, the opposite corner has the weight 0, and the
-/// others have those of the arc: the same bits in both of its triangles.
+/// others have those of the arc: the same bits in both of its triangles. Beyond an end of the arc, that end
+/// has the weight 1.
 void barycentric_weights(const Direction& place, const Corners& corner, double (&weight)[3]);
 
 /// The determinants, if doubles suffice: then the place lies strictly in the triangle. They do not if it sees
@@ -41,6 +42,8 @@ inline bool find_ordinary_determinants(const Direction& place, const Corners& co
   }
   return all;
 }
+/// True if the place is beyond b on the arc from `from` to b: if the angle at b is at least 90 degrees.
+bool is_beyond(const Direction& place, const Direction& b, const Direction& from);
 inline void divide_by_sum(double (&weight)[3]) {
   const double sum = weight[0] + weight[1] + weight[2];
   for (double& w : weight) w /= sum;

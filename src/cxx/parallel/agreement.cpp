@@ -5,8 +5,8 @@
 namespace pstripack {
 namespace {
 
-// Greater than the code of any failure that can end the same body: the minimum is then the failure.
-constexpr std::int32_t kHidden = -1, kDoNotPay = -2;
+// Votes, no result codes. The failure with result code c is kFailure + c, so that the minimum is a failure.
+constexpr std::int32_t kHidden = -1, kDoNotPay = -2, kFailure = -(1 << 30);
 
 }  // namespace
 
@@ -18,14 +18,15 @@ std::int32_t Outcome::code_of_current() {
   } catch (const PatchesDoNotPay&) {
     return kDoNotPay;
   } catch (...) {
-    return code_of(std::current_exception());
+    return kFailure + code_of(std::current_exception());
   }
 }
 
 void Outcome::accept() const {
   if (code_ == kHidden) throw HiddenNode{};
   if (code_ == kDoNotPay) throw PatchesDoNotPay{};
-  if (code_ != 0) throw AgreedFailure(code_);
+  // A communicator that has failed itself passes a result code, -6.
+  if (code_ != 0) throw AgreedFailure(code_ < kFailure / 2 ? code_ - kFailure : code_);
 }
 
 }  // namespace pstripack

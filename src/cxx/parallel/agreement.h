@@ -83,8 +83,8 @@ struct PatchesDoNotPay : std::exception {
   const char* what() const noexcept override { return "patches do not pay"; }
 };
 
-/// How a body ended. The code is 0 if it returned. HiddenNode and PatchesDoNotPay, which are no failures,
-/// have codes of their own; that of a failure is smaller.
+/// How a body ended. Its code is 0 if it returned. HiddenNode and PatchesDoNotPay, which are no failures,
+/// have codes of their own, which are no result codes; that of a failure is smaller.
 class Outcome {
  public:
   template <class Body>

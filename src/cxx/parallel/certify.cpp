@@ -110,10 +110,13 @@ Certified<Int> certify(Patches<Int> patches, const Division& division, Communica
     // them.
     // untested: nodes in one direction are in the same halos, so patches see them before the first lists
     if (patches.see_coincidence.value) throw PatchesDoNotPay{};
-    // Every list has matched, and no hull has grown since: the hulls agree.
-    if (!questions.exist.value) return {std::move(patches), {}};
+    if (!questions.exist.value)
+      break;  // every list has matched, and no hull has grown since: the hulls agree
     answers = answers_to(questions, patches, ranks, threads);
   }
+  in_agreement(ranks,
+               [&] { patches.for_each(threads, [](Patch<Int>& patch, PatchHere) { patch.finish(); }); });
+  return {std::move(patches), {}};
 }
 
 template Certified<std::int32_t> certify(Patches<std::int32_t>, const Division&, Communicator&,

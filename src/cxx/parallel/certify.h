@@ -8,8 +8,8 @@
 
 namespace pstripack {
 
-/// Patches in which the star of every own node is the star in the triangulation of all nodes, unless nodes
-/// coincide.
+/// Finished patches, in which the star of every own node is the star in the triangulation of all nodes,
+/// unless nodes coincide.
 template <class Int>
 struct Certified {
   Patches<Int> patches;

@@ -1,6 +1,7 @@
 #include "parallel/coincidence.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 
 namespace pstripack {
@@ -9,6 +10,7 @@ Coincidence first_coincidence(const CoincidentPairs& pairs) {
   std::vector<GlobalNumber> node;  // those that coincide with another, by number
   node.reserve(2 * pairs.size());
   for (const auto& [a, b] : pairs) {
+    assert(a != b);
     node.push_back(a);
     node.push_back(b);
   }

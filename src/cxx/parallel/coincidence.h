@@ -17,7 +17,8 @@ struct Coincidence {
   std::int64_t l, m;
 };
 
-/// `pairs`, not empty, are the edges of a graph; its components are the sets of coincident nodes.
+/// `pairs`, not empty and of different nodes, are the edges of a graph; its components are the sets of
+/// coincident nodes.
 Coincidence first_coincidence(const CoincidentPairs& pairs);
 
 }  // namespace pstripack

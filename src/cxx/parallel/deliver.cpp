@@ -58,7 +58,7 @@ void route_some(const Here& here, std::size_t first, std::size_t last, std::size
   std::vector<std::size_t> own(kTallies * patches);
   // Most nodes are often deep in the first patch of this rank. That test is faster than finding the owner, so
   // the owner is found for the other nodes only.
-  bool most_are_deep = true;
+  bool most_are_deep = division.patches.count(here.me) > 0;
   const auto home = static_cast<PatchOfNode>(division.patches.first(here.me));
   constexpr std::size_t kTogether = 256;
   Point place[kTogether];

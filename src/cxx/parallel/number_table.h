@@ -37,6 +37,10 @@ class NumberTable {
     place = {number, value};
     return {value, true};
   }
+  /// Changes the value of the number if it is in the table.
+  void set(GlobalNumber number, Value value) {
+    if (Place& place = place_[find(number)]; place.number == number) place.value = value;
+  }
   /// The number must be in the table.
   Value at(GlobalNumber number) const { return place_[find(number)].value; }
   /// Null if the number is not in the table.

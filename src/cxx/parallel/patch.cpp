@@ -18,11 +18,16 @@ void Patch<Int>::set_up(const std::vector<Record>& closing, Workspace& workspace
     });
   };
   assert(all_are(0, nodes_.own, true) && all_are(nodes_.own, nodes_.halo, false));
+  // The halo is looked up by number: whether a node is in it depends on how distances were rounded.
+  const Record *const halo = nodes_.first + nodes_.own, *const end = nodes_.first + nodes_.count();
+  NumberTable<bool> is_in_halo(closing.size());
+  for (const Record& r : closing) is_in_halo.insert(r.number, false);
+  for (const Record* r = halo; r < end; ++r) is_in_halo.set(r->number, true);
   std::vector<Record> leading;
   for (const Record& r : closing) {
-    const bool is_known = partition_->knows(id_, hull_.places()(r.point));
-    assert(is_known == std::any_of(nodes_.first, nodes_.first + nodes_.count(),
-                                   [&](const Record& known) { return known.number == r.number; }));
+    const bool is_known = is_in_halo.at(r.number) || partition_->owner(hull_.places()(r.point)) == id_;
+    assert(is_known ==
+           std::any_of(nodes_.first, end, [&](const Record& known) { return known.number == r.number; }));
     if (!is_known) leading.push_back(r);
   }
   hull_.set_up(nodes_, leading, workspace);
@@ -58,11 +63,9 @@ void Patch<Int>::take_in(std::vector<Record> nodes) {
 }
 
 template <class Int>
-std::size_t Patch<Int>::finish() {
-  if (nodes_.own == 0) return 0;
-  finished_ = hull_.growing().finish();
-  // The corners of all triangles, and for each node one more at the boundary and its count.
-  return 3 * finished_.face_count + 2 * finished_.node_count;
+void Patch<Int>::finish() {
+  assert(known() == listed_ || partition_->patches() == 1);
+  if (nodes_.own > 0) finished_ = hull_.growing().finish();
 }
 
 template class Patch<std::int32_t>;

@@ -69,6 +69,7 @@ class Patch {
   /// Finds the triangles that other patches must have, too. Throws std::bad_alloc.
   void update_lists() {
     if (nodes_.own > 0 && partition_->patches() > 1) lists_.update(view());
+    listed_ = known();
   }
   const PatchLists<Int>& lists() const { return lists_; }
   /// See PatchLists. Throws std::bad_alloc.
@@ -77,9 +78,13 @@ class Patch {
     return lists_.lacking(view(), lists);
   }
 
-  /// After the last answer: the triangulation. Returns room enough for the entries of all rings of its own
-  /// nodes. Throws HiddenNode.
-  std::size_t finish();
+  /// After the last lists: the triangulation. Throws HiddenNode.
+  void finish();
+  /// After finish(): room enough for the entries of all rings of its own nodes: the corners of all triangles,
+  /// and for each node one more at the boundary and its count.
+  std::size_t entries() const {
+    return nodes_.own == 0 ? 0 : 3 * finished_.face_count + 2 * finished_.node_count;
+  }
 
   /// After finish(): room for `bytes` in the workspace, in place of what is not needed any more; null if
   /// there is not enough.
@@ -119,6 +124,7 @@ class Patch {
   PatchNodes nodes_;
   PatchHull<Int> hull_;
   PatchLists<Int> lists_;
+  std::size_t listed_ = 0;  ///< known() when the lists were made
   Hull finished_;
 };
 

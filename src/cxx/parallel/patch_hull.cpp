@@ -55,7 +55,8 @@ void PatchHull<Int>::set_up(const PatchNodes& nodes, const std::vector<Record>& 
 template <class Int>
 void PatchHull<Int>::build() {
   growing_->build(leading_);
-  for (const auto& [in, out] : growing_->coincident()) coincident_.emplace_back(number(in), number(out));
+  for (const auto& [in, out] : growing_->coincident())
+    if (number(in) != number(out)) coincident_.emplace_back(number(in), number(out));
 }
 
 template <class Int>

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <iterator>
-#include <numeric>
 #include <utility>
 
 namespace pstripack {
@@ -29,10 +28,9 @@ template <class Int>
 std::unique_ptr<Workspace> write_rings(Patches<Int>& patches, const ReturnAddresses& addresses, bool apart,
                                        int threads, Table<Int>& table, std::vector<Buffer<Int>>& more_memory,
                                        StarSums& sums) {
-  std::vector<std::size_t> begin(patches.of_rank.size() + 1, 0);
-  patches.for_each(threads,
-                   [&](Patch<Int>& patch, PatchHere k) { begin[k + 1] = patch.finish() + 2 * kBlock; });
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<std::size_t> begin{0};
+  for (const Patch<Int>& patch : patches.of_rank)
+    begin.push_back(begin.back() + patch.entries() + 2 * kBlock);
   std::unique_ptr<Workspace> memory;
   Int* room = nullptr;
   if (apart) {

@@ -197,9 +197,12 @@ class ExactPolygon {
     // Eight roundings, of terms that are `least` / 2^-48 at most together.
     const Point normal = pstripack::cross(p_, {a.x + b.x, a.y + b.y, a.z + b.z});
     const double least = 0x1p-48 * size(p_) * (size(a) + size(b));
+    const bool are_moderate =
+        is_moderate_square(dot(p_, p_)) && is_moderate_square(dot(a, a)) && is_moderate_square(dot(b, b));
     const auto side_of = [&](const Point& v) {
       const double height = dot(normal, v), bound = least * size(v);
-      if (bound > 0x1p-800 && bound < 0x1p800 && std::fabs(height) > bound) return height > 0 ? 1 : -1;
+      if (are_moderate && is_moderate_square(dot(v, v)) && std::fabs(height) > bound)
+        return height > 0 ? 1 : -1;
       return left_of_sum(v, p_, a, b);
     };
     // The side of the arc on which c, and the next vertex, lie; 0 for the place opposite p: the great circles
@@ -234,9 +237,11 @@ class ExactPolygon {
   static bool is_on(const Point& p, const Point& a, const Point& b) {
     if (same_direction(p, a) || same_direction(p, b)) return true;
     if (left(a, b, p) != 0) return false;
-    const Point normal =
-        pstripack::cross(a, minus(b, a));  // rounded: which way the arc turns is all that counts
-    return left(normal, a, p) > 0 && left(normal, p, b) > 0;
+    // The normals of a and b, of a and p, and of p and b are multiples of each other: one component tells.
+    for (const Point& axis : {Point{1, 0, 0}, Point{0, 1, 0}, Point{0, 0, 1}})
+      if (const int turn = left(axis, a, b); turn != 0)
+        return left(axis, a, p) == turn && left(axis, p, b) == turn;
+    return false;
   }
 
   const Vertex& vertex_;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/floating_point.h"
+#include "geometry/double_double.h"
 #include "geometry/predicates.h"
 #include "stripack/list_queries.h"
 #include "stripack/original/original_rules.h"
@@ -91,12 +92,57 @@ class GuardedLists : public ListEditor<CountedArrays<Int>> {
   Nodes<Real> node_;
 };
 
+/// The weights of a, b, c at p by differences: det(p, b, c) = det(p, b - p, c - p), which is wrong by less
+/// than 9 roundings of |p| |b - p| |c - p|. In double for floats, whose differences are exact if coordinates
+/// are within 2^29 of each other; for doubles in double-double, where they always are. If their squares might
+/// underflow they are multiplied by a power of two: a common factor of the weights.
+template <class Real>
+[[gnu::noinline]] void weigh_by_differences(const Vector<Real>& a, const Vector<Real>& b,
+                                            const Vector<Real>& c, const Vector<Real>& p,
+                                            const Weights<Real>& weights) {
+  using T = std::conditional_t<std::is_same_v<Real, float>, double, DoubleDouble>;
+  struct Side {
+    T x, y, z;
+  };
+  const Point at = as_point(p), corner[3] = {as_point(a), as_point(b), as_point(c)};
+  double most = 0;
+  for (const Point& v : corner)
+    most = std::max({most, std::fabs(v.x - at.x), std::fabs(v.y - at.y), std::fabs(v.z - at.z)});
+  int exponent = 0;
+  if (most < 0x1p20 * std::sqrt(std::numeric_limits<Real>::min())) std::frexp(most, &exponent);
+  const double scale = std::ldexp(1, std::min(-exponent, 1000));
+  const auto difference = [](double v, double w, double by) {
+    const DoubleDouble d = two_sum(v, -w);
+    if constexpr (std::is_same_v<Real, float>)
+      return by * d.high;
+    else
+      return DoubleDouble{by * d.high, by * d.low};
+  };
+  const auto from = [&](const Point& to, const Point& o, double by) {
+    return Side{difference(to.x, o.x, by), difference(to.y, o.y, by), difference(to.z, o.z, by)};
+  };
+  const Side o = from(at, {0, 0, 0}, 1),
+             side[3] = {from(corner[0], at, scale), from(corner[1], at, scale), from(corner[2], at, scale)};
+  const auto det = [&](const Side& e, const Side& f) {
+    const T value =
+        o.x * (e.y * f.z - e.z * f.y) + o.y * (e.z * f.x - e.x * f.z) + o.z * (e.x * f.y - e.y * f.x);
+    if constexpr (std::is_same_v<Real, float>)
+      return static_cast<Real>(std::max(value, 0.0));
+    else
+      return std::max(value.high, 0.0);
+  };
+  weights.b1 = det(side[1], side[2]);
+  weights.b2 = det(side[2], side[0]);
+  weights.b3 = det(side[0], side[1]);
+}
+
 /// TRFIND: by rounded tests, as the original; by exact signs where these are not certain or do not end soon.
 template <class Real, class Int, class Lists>
 class Search {
  public:
-  Search(const Vector<Real>& p, const Lists& lists, const Weights<Real>& weights)
-      : p_(p), lists_(lists), n_(lists_.size()), weights_(weights) {}
+  /// `rounding` of the weights: a bound, set if they are not by the original's rules.
+  Search(const Vector<Real>& p, const Lists& lists, const Weights<Real>& weights, Real& rounding)
+      : p_(p), lists_(lists), n_(lists_.size()), weights_(weights), rounding_(rounding) {}
 
   Location<Int> find(Int start) {
     if (n_ < 3 || !is_finite(p_)) return nowhere;
@@ -141,17 +187,20 @@ class Search {
     return seen.i1 == seen.i2 ? Location<Int>{i1, i1, 0} : seen;
   }
 
-  /// True if the weights are so large that the triangle contains p whatever their rounding: each is a sum of
-  /// six products, none larger than `size`, with five roundings on the way.
-  bool is_certain(const Location<Int>& found) const {
+  /// A bound of the rounding of the weights: each is a sum of six products, none larger than `size`, with
+  /// five roundings on the way. If p counts as on the arc i1-i2 it is twice that.
+  [[gnu::always_inline]] Real rounding_of_weights(const Location<Int>& found) const {
     const auto largest = [](const Vector<Real>& v) {
       return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     };
     const Real corner =
         std::max({largest(lists_[found.i1]), largest(lists_[found.i2]), largest(lists_[found.i3])});
-    const Real size = corner * corner * largest(p_);
-    return std::min({weights_.b1, weights_.b2, weights_.b3}) >
-           16 * std::numeric_limits<Real>::epsilon() * size;
+    return 16 * std::numeric_limits<Real>::epsilon() * (corner * corner * largest(p_));
+  }
+  /// True if the weights are so large that the triangle contains p whatever their rounding.
+  bool is_certain(const Location<Int>& found) {
+    rounding_ = rounding_of_weights(found);
+    return std::min({weights_.b1, weights_.b2, weights_.b3}) > rounding_;
   }
 
   /// The visibility walk: leaves triangle (u,v,w) through an arc that has p strictly to its right.
@@ -214,6 +263,7 @@ class Search {
     weigh(lists_[t.i1], lists_[t.i2], lists_[t.i3], p_, weights_);
     weights_.b1 = std::max(weights_.b1, Real(0));
     weights_.b2 = std::max(weights_.b2, Real(0));
+    rounding_ = rounding_of_weights(t);
     return t;
   }
 
@@ -231,6 +281,7 @@ class Search {
   const Lists& lists_;
   const Int n_;
   const Weights<Real> weights_;
+  Real& rounding_;
 };
 
 /// The natural neighbours of p found so far: the nodes that would become its neighbours if p were inserted.
@@ -445,21 +496,37 @@ NextNearestStatus nearest_by_cosines(const ListsView<Int>& lists, const Nodes<Re
   return NextNearestStatus::done;
 }
 
+/// TRFIND, without weights by differences. One function for all that search: so the walk is inlined in it.
+template <class Real, class Int>
+[[gnu::noinline]] Location<Int> locate(Int start, const Vector<Real>& p, const ListsView<Int>& lists,
+                                       const Nodes<Real>& nodes, const Weights<Real>& weights,
+                                       Real& rounding) {
+  const PlainLists<Real, Int> plain(lists, nodes);
+  return Search<Real, Int, PlainLists<Real, Int>>(p, plain, weights, rounding).find(start);
+}
+
 }  // namespace
 
 template <class Real, class Int>
 Location<Int> trfind(Int start, const Vector<Real>& p, const ListsView<Int>& lists, const Nodes<Real>& nodes,
                      Real& b1, Real& b2, Real& b3) {
-  const PlainLists<Real, Int> plain(lists, nodes);
-  return Search<Real, Int, PlainLists<Real, Int>>(p, plain, {b1, b2, b3}).find(start);
+  Real rounding = 0;
+  const Location<Int> found = locate(start, p, lists, nodes, {b1, b2, b3}, rounding);
+  if (found.i3 == 0) return found;
+  const Real most = std::max(std::max(b1, b2), b3);
+  if (most > 0x1p21f * rounding || original_rules().follow) return found;
+  weigh_by_differences<Real>(nodes[found.i1], nodes[found.i2], nodes[found.i3], p, {b1, b2, b3});
+  // To within rounding p lies on the arc i1-i2.
+  if (b3 < std::numeric_limits<Real>::epsilon() * (b1 + b2)) b3 = 0;
+  return found;
 }
 
 template <class Real, class Int>
 Location<Int> trfind_in_edited(Int start, const Vector<Real>& p, const EditedLists<Int>& lists, Int count,
                                const Nodes<Real>& nodes) {
   const GuardedLists<Real, Int> guarded(lists, count, nodes);
-  Real b1, b2, b3;
-  return Search<Real, Int, GuardedLists<Real, Int>>(p, guarded, {b1, b2, b3}).find(start);
+  Real b1, b2, b3, rounding;
+  return Search<Real, Int, GuardedLists<Real, Int>>(p, guarded, {b1, b2, b3}, rounding).find(start);
 }
 
 template <class Real, class Int>
@@ -469,8 +536,9 @@ Int nearnd(const Vector<Real>& p, Int start, const ListsView<Int>& lists, const 
   const ListReader<Int> reader(lists);
   const Int n = reader.size();
   if (n < 3) return 0;
-  Real b1, b2, b3;
-  const Location<Int> found = trfind(start >= 1 && start <= n ? start : Int(1), p, lists, nodes, b1, b2, b3);
+  Real b1, b2, b3, of_weights;
+  const Location<Int> found =
+      locate(start >= 1 && start <= n ? start : Int(1), p, lists, nodes, {b1, b2, b3}, of_weights);
   if (found.i1 == 0) return 0;
 
   Candidates<Int> ring(found.i1);

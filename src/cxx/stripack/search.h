@@ -19,7 +19,8 @@ struct Location {
 
 /// TRFIND: finds point p, starting at node `start` (a random node if not in 1..n). If p lies in a triangle,
 /// b1, b2, b3 are the weights of its corners: non-negative, up to a common factor, b3 = 0 if p lies on the
-/// arc i1-i2.
+/// arc i1-i2. By the original's formula where its error is below 2^-20 of the largest, and under
+/// original_rules(); else by differences.
 ///
 /// The walk of Renka, ACM TOMS 23 (1997), Algorithm 772, by rounded tests. If it fails it restarts at a
 /// random node. The random seeds are 1, 2, 3 in every call, so that there is no state; under original rules

@@ -3,6 +3,8 @@
 // (Real, Int) = (float, int32_t), (double, int32_t), (double, int64_t).
 
 #include <cstdint>
+#include <stdexcept>
+#include <string>
 
 #include "geometry/predicates.h"
 #include "lists/adjacency_lists.h"
@@ -52,10 +54,22 @@ VoronoiStatus voronoi(const ListsView<Int>& lists, const Nodes<Real>& nodes,
 VoronoiStatus voronoi_of_directions(const ListsView<std::int32_t>& lists, const Directions& nodes,
                                     const VoronoiArrays<double, std::int32_t>& out);
 
+/// Two nodes, numbers from 1, so close that a double cannot hold the area of their cells: 2^-510 rad or less.
+struct NodesTooClose : std::invalid_argument {
+  NodesTooClose(std::int32_t a, std::int32_t b)
+      : std::invalid_argument(
+            "nodes " + std::to_string(a) + " and " + std::to_string(b) +
+            ", counted from 1, are less than 3e-154 rad apart: a double cannot hold the areas of "
+            "their cells; leave one of them out"),
+        first(a),
+        second(b) {}
+  std::int32_t first, second;
+};
+
 /// area[n]: the areas of the Voronoi cells of the nodes, in steradians, right relative to themselves
 /// (geometry/measures.h). If the nodes lie in a hemisphere, the cells of boundary nodes share the rest of the
 /// sphere. False if these are not the lists of a triangulation of the nodes. On threads for large n. Throws
-/// std::bad_alloc.
+/// NodesTooClose, std::bad_alloc.
 bool cell_areas(const ListsView<std::int32_t>& lists, const Directions& nodes, double* area);
 
 }  // namespace pstripack
