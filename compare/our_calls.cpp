@@ -39,6 +39,17 @@ SharedArea new_area(std::size_t size) {
   return area;
 }
 
+/// The path by which a child of this process can open the area.
+std::string path_of(const SharedArea& area) {
+  const int file = area.file().get();
+#if defined(__linux__)  // also for a child that pstripack-run starts
+  return fmt::format("/proc/{}/fd/{}", getpid(), file);
+#else
+  fcntl(file, F_SETFD, 0);  // the child inherits it
+  return fmt::format("/dev/fd/{}", file);
+#endif
+}
+
 /// The data that the two processes exchange, before the arrays.
 struct Call {
   char abi[8];
@@ -133,7 +144,8 @@ using Trmesh8 = void(const std::int32_t*, const double*, const double*, const do
                      std::int32_t*, std::int32_t*, std::int32_t*);
 
 void* load_trmesh(const std::string& abi) {
-  const std::string library = abi == "r8" ? "libstripack" PSTRIPACK_LIBRARY_SUFFIX : "libstripack_" + abi + PSTRIPACK_LIBRARY_SUFFIX;
+  const std::string library =
+      abi == "r8" ? "libstripack" PSTRIPACK_LIBRARY_SUFFIX : "libstripack_" + abi + PSTRIPACK_LIBRARY_SUFFIX;
   void* const handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
   void* const routine = handle != nullptr ? dlsym(handle, "trmesh_") : nullptr;
   if (routine == nullptr) throw std::runtime_error(dlerror());
@@ -230,11 +242,11 @@ OurRun run_ours(const std::vector<Point>& points, const Setting& setting, int re
     arrays.x[i] = points[i].x, arrays.y[i] = points[i].y, arrays.z[i] = points[i].z;
 
   const SharedArea report = new_area(kReportBegins);
-  std::vector<std::string> words{beside_this_program(""), kCallCommand, area.name().text};
+  std::vector<std::string> words{beside_this_program(""), kCallCommand, path_of(area)};
   if (setting.ranks > 1)
     words.insert(words.begin(),
                  {path_of_pstripack_run(), "-n", std::to_string(setting.ranks), "--oversubscribe", "--"});
-  const std::string report_path = report.name().text;  // in this process, not in the child
+  const std::string report_path = path_of(report);  // in this process, not in the child
   const auto ended = legacy_stripack::run_in_child(
       [&] {
         set_environment(setting, report_path);
@@ -271,7 +283,7 @@ OurRun run_ours(const std::vector<Point>& points, const Setting& setting, int re
 }
 
 int call_trmesh(const char* path) {
-  const SharedArea area = SharedArea::map(path);
+  const SharedArea area = SharedArea::map(pstripack::Descriptor(open(path, O_RDWR | O_CLOEXEC)));
   if (area.data() == nullptr) throw std::system_error(errno, std::generic_category(), path);
   auto* const call = static_cast<Call*>(area.data());
   const Arrays arrays(call);

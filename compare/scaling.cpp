@@ -24,13 +24,11 @@
 #include <string>
 #include <vector>
 
-#include "base/shared_area.h"
 #include "csv_file.h"
 #include "in_a_row.h"
 #include "lloyd_step.h"
 #include "median.h"
 #include "move_home.h"
-#include "mpi/area_of_all.h"
 #include "mpi/collective_trmesh.h"
 #include "mpi/distributed_evaluator.h"
 #include "mpi/distributed_mesh.h"
@@ -183,17 +181,17 @@ class PoolCall {
     std::int64_t n = static_cast<std::int64_t>(points_on_root.size());
     ranks.broadcast(&n, sizeof n, 0);
     const AreaLayout layout(static_cast<std::int32_t>(n), sizeof(double));
+    MPI_Aint size = ranks.rank() == 0 ? static_cast<MPI_Aint>(layout.size()) : 0;
+    int unit = 1;
+    void* area = nullptr;
     double* x[3] = {};
-    if (shared)
-      area_ = area_of_all(ranks.handle(), layout.size());
-    else if (ranks.rank() == 0)
-      area_ = SharedArea::create(layout.size());
+    MPI_Win_allocate_shared(size, unit, MPI_INFO_NULL, shared ? ranks.handle() : MPI_COMM_SELF, &area,
+                            &window_);
+    MPI_Win_shared_query(window_, 0, &size, &unit, &area);
     if (shared) arrays_ = Arrays::shared;
     if (shared || ranks.rank() == 0) {
-      if (area_.size() < layout.size()) throw std::runtime_error("no shared memory");
-      call_ = layout.call(area_.data(), nullptr);
-      for (int axis = 0; axis < 3; ++axis)
-        x[axis] = static_cast<double*>(layout.coordinate(area_.data(), axis));
+      call_ = layout.call(area, nullptr);
+      for (int axis = 0; axis < 3; ++axis) x[axis] = static_cast<double*>(layout.coordinate(area, axis));
     }
     for (std::size_t i = 0; i < points_on_root.size(); ++i) {
       x[0][i] = points_on_root[i].x;
@@ -203,6 +201,9 @@ class PoolCall {
     std::int64_t ready = 0;
     ranks.all_min(&ready, 1);
   }
+  ~PoolCall() { MPI_Win_free(&window_); }
+  PoolCall(const PoolCall&) = delete;
+  PoolCall& operator=(const PoolCall&) = delete;
   void operator()(GroupCost* cost) {
     std::int32_t lnew = 0;
     TrmeshCall call = call_;
@@ -212,7 +213,7 @@ class PoolCall {
 
  private:
   MpiCommunicator& ranks_;
-  SharedArea area_;
+  MPI_Win window_;
   Arrays arrays_ = Arrays::on_one_rank;
   TrmeshCall call_;
 };

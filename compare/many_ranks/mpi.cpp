@@ -10,8 +10,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "mpi/roll_call.h"
-
 namespace {
 
 /// Memory of messages under way, by the binary logarithm of its size: malloc would find that of all ranks
@@ -135,13 +133,6 @@ int MPI_Testall(int, MPI_Request*, int* done, std::nullptr_t) {
   return *done = 1, 0;
 }
 int MPI_Abort(MPI_Comm, int code) { std::exit(code); }
-
-// There is no other process to be lost.
-namespace pstripack {
-RollCall::RollCall(MPI_Comm) {}
-RollCall::~RollCall() = default;
-void RollCall::set_phase(const char*) {}
-}  // namespace pstripack
 
 namespace many_ranks {
 

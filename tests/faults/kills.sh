@@ -6,7 +6,7 @@
 # The modes pool, comm and distributed alternate. The victim is one of three ranks, in a pool sometimes the model.
 # Prints a line per kill, and a table of the reported phase, the seconds until the job ended and the processes left.
 # Fails unless every job ends in time with a nonzero exit code and leaves no process. After kill -9 one line must name
-# the lost rank and its phase.
+# the lost rank, in a pool with its phase.
 # shellcheck disable=SC2086,SC2154
 set -u
 . "$(dirname "$0")/../mpi/jobs.sh"
@@ -74,6 +74,9 @@ while [ $i -lt "$count" ]; do
   if [ $victim_rank = model ]; then
     phase='(the model)'
     [ "$lines" -eq 0 ] || fail "a rank is said to be lost"
+  elif [ $mode != pool ]; then
+    phase='(named by mpirun)'
+    [ "$signal" != KILL ] || grep -q "rank $victim_rank .*exited on signal 9" job.err || fail "mpirun does not name the rank"
   elif [ "$signal" = KILL ]; then
     { [ "$lines" -eq 1 ] && [ -n "$phase" ]; } || fail "no line that names the rank and its phase, or several"
   fi

@@ -155,8 +155,8 @@ killed)
     case $mode in idle | pool) program=pstripack-worker ;; *) program=$(basename "$JOB_PROGRAM") ;; esac
     kill -9 "$(process_of_rank 2 $program)" || fail "$mode: no such rank"
     ends $mode 30
-    [ "$(grep -cE '^pstripack: rank 2 was lost during [a-z ]+; the job ends$' job.err)" -eq 1 ] ||
-      fail "$mode: no line that names the rank, or several"
+    case $mode in idle | pool) line='^pstripack: rank 2 was lost during [a-z ]+; the job ends$' ;; *) line='rank 2 .*exited on signal 9' ;; esac
+    [ "$(grep -cE "$line" job.err)" -eq 1 ] || fail "$mode: no line that names the rank, or several"
   done
   ;;
 vanished)

@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "base/shared_area.h"
-#include "mpi/area_of_all.h"
 #include "mpi/collective_trmesh.h"
 #include "mpi/gather_lists.h"
 #include "mpi_test.h"
@@ -24,7 +22,6 @@ namespace {
 using pstripack::AgreedFailure;
 using pstripack::Arrays;
 using pstripack::MpiCommunicator;
-using pstripack::SharedArea;
 using pstripack::TrmeshCall;
 using pstripack::TrmeshResult;
 
@@ -82,26 +79,29 @@ template <class Real>
 Outcome by_all_in_shared_memory(MpiCommunicator& ranks, const Columns<Real>& c) {
   const std::size_t n = c.x.size();
   const pstripack::AreaLayout layout(static_cast<std::int32_t>(std::max<std::size_t>(n, 3)), sizeof(Real));
-  SharedArea area = pstripack::area_of_all(ranks.handle(), layout.size());
-  if (area.size() < layout.size()) ranks.abort("no shared memory", "");
+  MPI_Win window;
+  void* area = nullptr;
+  MPI_Aint size = ranks.rank() == 0 ? static_cast<MPI_Aint>(layout.size()) : 0;
+  int unit = 1;
+  MPI_Win_allocate_shared(size, unit, MPI_INFO_NULL, ranks.handle(), &area, &window);
+  MPI_Win_shared_query(window, 0, &size, &unit, &area);
   Outcome o(n);
   const std::vector<Real>* const columns[] = {&c.x, &c.y, &c.z};
   const auto each_array = [&](const auto& visit) {
-    const pstripack::ListArrays lists = layout.call(area.data(), nullptr).lists;
+    const pstripack::ListArrays lists = layout.call(area, nullptr).lists;
     visit(o.list, lists.list);
     visit(o.lptr, lists.lptr);
     visit(o.lend, lists.lend);
   };
   if (ranks.rank() == 0) {
     for (int i = 0; i < 3; ++i)
-      std::copy(columns[i]->begin(), columns[i]->end(),
-                static_cast<Real*>(layout.coordinate(area.data(), i)));
+      std::copy(columns[i]->begin(), columns[i]->end(), static_cast<Real*>(layout.coordinate(area, i)));
     if (n >= 3) each_array([](const auto& own, auto* there) { std::copy(own.begin(), own.end(), there); });
   }
   std::int64_t ready = 0;
   ranks.all_min(&ready, 1);
   try {
-    TrmeshCall call = layout.call(area.data(), &o.lnew);
+    TrmeshCall call = layout.call(area, &o.lnew);
     call.n = static_cast<std::int32_t>(n);
     o.result = collective_trmesh(ranks, Arrays::shared, call);
   } catch (const AgreedFailure& failure) {
@@ -110,7 +110,7 @@ Outcome by_all_in_shared_memory(MpiCommunicator& ranks, const Columns<Real>& c) 
   if (n >= 3)
     each_array([](auto& own, const auto* there) { std::copy(there, there + own.size(), own.begin()); });
   ranks.broadcast(&o.lnew, sizeof o.lnew, 0);
-  ranks.all_min(&ready, 1);
+  MPI_Win_free(&window);
   return o;
 }
 

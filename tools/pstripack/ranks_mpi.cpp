@@ -105,7 +105,6 @@ int on_rank_0(int argc, char** argv, const std::function<int()>& work) {
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
   try {
     MpiCommunicator ranks(MPI_COMM_WORLD);
-    ranks.call_roll();
     ranks_of_program() = &ranks;
     if (have_one_command_line(ranks, argc, argv)) {
       code = ranks.rank() == 0 ? lead(ranks, work) : follow(ranks, work);

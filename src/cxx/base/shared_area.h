@@ -19,26 +19,18 @@ class SharedArea {
   static SharedArea create(std::size_t size);
   /// Maps an area that another process created and whose descriptor was passed on. Empty on failure.
   static SharedArea map(Descriptor file);
-  /// Maps the area of another process of this user on this machine by its name. Empty on failure.
-  static SharedArea map(const char* name);
-  /// The name, as long as the process that created the area has its file open; "" if there is none.
-  struct Name {
-    char text[40];
-  };
-  Name name() const;
 
   void* data() const { return data_; }
   std::size_t size() const { return size_; }
   const Descriptor& file() const { return file_; }
   /// The memory stays mapped.
-  void close_file();
+  void close_file() { file_.reset(); }
 
  private:
   void clear();
   Descriptor file_;
   void* data_ = nullptr;
   std::size_t size_ = 0;
-  int number_ = 0;  ///< where only POSIX has shared memory: part of the name; 0: not created here
 };
 
 }  // namespace pstripack

@@ -1,11 +1,8 @@
 #include "base/system.h"
 
-#include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
-#include <signal.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include <algorithm>
 #include <thread>
@@ -111,29 +108,6 @@ ssize_t write_unchecked(int file, const void* bytes, std::size_t size) {
   return syscall(SYS_write, file, bytes, size);
 #else
   return write(file, bytes, size);
-#endif
-}
-
-bool is_gone(pid_t process) {
-  if (kill(process, 0) != 0) return errno == ESRCH;
-#if defined(PSTRIPACK_LINUX)
-  char name[32] = "/proc/", text[256];
-  char* at = name + 6;
-  char digits[12];
-  int n = 0;
-  for (pid_t p = process; p > 0; p /= 10) digits[n++] = static_cast<char>('0' + p % 10);
-  while (n > 0) *at++ = digits[--n];
-  strcpy(at, "/stat");
-  const int file = open(name, O_RDONLY | O_CLOEXEC);
-  if (file < 0) return errno == ENOENT;
-  const ssize_t size = read(file, text, sizeof text - 1);
-  close(file);
-  if (size <= 0) return false;
-  text[size] = '\0';
-  const char* const end_of_name = strrchr(text, ')');
-  return end_of_name != nullptr && (end_of_name[2] == 'Z' || end_of_name[2] == 'X');
-#else
-  return false;
 #endif
 }
 

@@ -40,10 +40,6 @@ ssize_t send_without_signal(int socket, const msghdr& message);
 /// As write(). Fails if the bytes cannot be read, also where AddressSanitizer would report them.
 ssize_t write_unchecked(int file, const void* bytes, std::size_t size);
 
-/// True if the process does not exist any more, or is a zombie, which only Linux tells. Usable in signal
-/// handlers.
-bool is_gone(pid_t process);
-
 /// A bit for each processor that this process may use. Where the system does not tell: the first ones, as
 /// many as it has.
 using ProcessorSet = std::array<std::uint64_t, 16>;

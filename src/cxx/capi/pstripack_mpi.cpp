@@ -314,7 +314,6 @@ int32_t pstripack_set_comm(MPI_Comm comm) {
       return 0;
     }
     auto ranks = make_over<MpiCommunicator>(comm);
-    ranks->call_roll();
     if (const int other = rank_with_another_order(*ranks); other < ranks->size()) {
       if (ranks->rank() == 0)
         std::fprintf(stderr,
@@ -348,7 +347,6 @@ int32_t pstripack_mesh_create(MPI_Comm comm, pstripack_mesh** mesh) {
     return told_that("mesh_create", PSTRIPACK_BAD_COMM, kNotFromHere);
   return told("mesh_create", guarded([&] {
                 *mesh = make_over<pstripack_mesh>(comm).release();
-                (*mesh)->mesh.ranks().call_roll();
                 return 0;
               }));
 }

@@ -7,11 +7,7 @@
  * return the same code on every rank. On an error they write nothing, do not abort, and print nothing on
  * stdout. Only if MPI itself fails (a lost process), one line on stderr names rank and phase, and
  * MPI_Abort ends the job.
- *
- * MPI usually does not report a killed rank: mpirun ends the other ranks by SIGTERM. So that one of those
- * on the machine of the lost rank can print the line before it ends, SIGTERM has a handler during comm
- * mode and during the life of a mesh, if a machine has more than one rank and the program has not set a
- * handler before.
+ * A killed rank is reported by mpirun. The library handles no signal.
  */
 #ifndef PSTRIPACK_MPI_H
 #define PSTRIPACK_MPI_H

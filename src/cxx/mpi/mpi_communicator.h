@@ -6,11 +6,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
-#include <optional>
 #include <vector>
 
-#include "mpi/roll_call.h"
 #include "parallel/communicator.h"
 
 namespace pstripack {
@@ -62,15 +59,9 @@ class MpiCommunicator : public Communicator {
   void set_phase(const char* phase) override {
     phase_ = phase;
     if (phase_place_ != nullptr) *phase_place_ = phase;
-    if (roll_call_) roll_call_->set_phase(is_idle(phase) ? "" : phase);
   }
   /// From now on the phase is also stored in *place; null: no longer.
   void show_phase_in(const char* volatile* place) { phase_place_ = place; }
-  /// From now on the other ranks of this machine see the phase, and report it if this rank is lost.
-  /// Collective.
-  void call_roll() {
-    if (size_ > 1) roll_call_.emplace(comm_);
-  }
   MPI_Comm handle() const { return comm_; }
 
   /// Ends the job with one line on stderr, for errors that ranks cannot agree on. kind: such as "MPI error".
@@ -105,10 +96,8 @@ class MpiCommunicator : public Communicator {
   int rank_ = 0, size_ = 1;
   std::size_t longest_message_;
   bool crowded_ = false;
-  static bool is_idle(const char* phase) { return std::strcmp(phase, "idle") == 0; }
   const char* phase_ = "idle";
   const char* volatile* phase_place_ = nullptr;
-  std::optional<RollCall> roll_call_;
   /// One number per rank, allocated once so that an agreement needs no memory.
   std::vector<std::int64_t> sizes_, other_sizes_;
   std::vector<Routed> moving_, leaving_, arriving_;

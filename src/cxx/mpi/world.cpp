@@ -22,13 +22,11 @@ void World::abort() const {
 
 RanksOfMachine ranks_of_machine(const World&) {
   MPI_Comm machine;
-  int ranks = 1, lowest = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &lowest);
+  int ranks = 1;
   MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
   MPI_Comm_size(machine, &ranks);
-  MPI_Bcast(&lowest, 1, MPI_INT, 0, machine);
   MPI_Comm_free(&machine);
-  return {ranks, lowest == 0};
+  return {ranks};
 }
 
 void tell_others(const void* message, std::size_t size) {

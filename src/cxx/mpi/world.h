@@ -26,7 +26,6 @@ class World {
 /// The ranks that can share memory with this one, itself included.
 struct RanksOfMachine {
   int count;
-  bool have_rank_0;
 };
 /// Collective.
 RanksOfMachine ranks_of_machine(const World& world);

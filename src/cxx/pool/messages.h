@@ -1,6 +1,8 @@
 #pragma once
 // The packets (channel.h) between a model, rank 0 of its pool and pstripack-run.
 
+#include <signal.h>
+
 #include <cstdint>
 
 #include "parallel/cost.h"
@@ -24,9 +26,26 @@ struct PoolReply {
   GroupCost cost;  ///< if requested
 };
 
-/// Sent by rank 0 to pstripack-run when the model has started and when it has ended.
-struct ModelNews {
-  std::int32_t process = 0, has_ended = 0;
+// Between pstripack-run and the keeper (keeper.h).
+
+/// The first packet from pstripack-run, with the model's stdin, stdout, stderr and environment.
+struct Greeting {
+  std::uint64_t ignored = 0;  ///< bit S-1: the model shall find signal S ignored
+
+  bool ignores(int signal) const { return (ignored >> (signal - 1) & 1) != 0; }
+  bool tells_to_end(int signal) const {
+    return (signal == SIGTERM || signal == SIGINT || signal == SIGHUP || signal == SIGQUIT) &&
+           !ignores(signal);
+  }
+};
+
+/// A signal for the model and the processes that it has started. SIGKILL: it must end now.
+struct SignalForModel {
+  std::int32_t number = 0;
+};
+
+/// From the keeper.
+struct ModelEnd {
   std::int32_t status = 0;  ///< as returned by wait()
 };
 

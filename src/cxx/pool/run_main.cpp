@@ -2,7 +2,7 @@
 //
 // The model should run as if it had been started here. So this program sends rank 0, over a local socket,
 // what mpirun would not pass on unchanged: stdout and stderr, stdin if it is a file, and the environment.
-// Rank 0 sends back how the model ended.
+// Signals go the same way, and the end of the model comes back (keeper.h).
 
 #include <errno.h>
 #include <fcntl.h>
@@ -15,22 +15,28 @@
 #include <sys/signalfd.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "base/environment.h"
+#include "base/system.h"
 #include "pool/channel.h"
 #include "pool/messages.h"
 
 namespace {
 
 using pstripack::Descriptor;
+using Clock = std::chrono::steady_clock;
 
 constexpr const char* kHelp =
     "usage: pstripack-run -n P [mpirun option... --] program [argument...]\n"
@@ -104,9 +110,9 @@ Arguments read_arguments(char** argv) {
 
 /// pstripack-worker is in the same folder as this program.
 std::string path_of_worker() {
-  char self[PATH_MAX];
-  const ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
-  std::string path(self, length > 0 ? static_cast<std::size_t>(length) : 0);
+  std::string path = pstripack::path_of_this_program();
+  if (path.empty())
+    fail("/proc/self/exe: cannot be read, and pstripack-worker not be found: mount /proc", 127);
   path = path.substr(0, path.rfind('/') + 1) + "pstripack-worker";
   if (access(path.c_str(), X_OK) != 0) fail(path + ": " + std::strerror(errno), 127);
   return path;
@@ -118,18 +124,17 @@ std::string path_of_mpirun() {
 }
 
 /// True if `mpirun --version` names Open MPI. The other supported launcher is Hydra, of MPICH and Intel MPI.
-bool is_open_mpi(const std::string& mpirun) {
+bool is_open_mpi(std::string mpirun) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) fail(std::string("pipe: ") + std::strerror(errno), 1);
   const pid_t child = fork();
   if (child < 0) fail(std::string("fork: ") + std::strerror(errno), 1);
   if (child == 0) {
     dup2(ends[1], STDOUT_FILENO);
-    const Descriptor nothing(open("/dev/null", O_RDWR));
-    dup2(nothing.get(), STDIN_FILENO);
-    dup2(nothing.get(), STDERR_FILENO);
-    execlp(mpirun.c_str(), mpirun.c_str(), "--version", nullptr);
-    _exit(127);
+    dup2(Descriptor(open("/dev/null", O_RDONLY)).get(), STDIN_FILENO);
+    std::string option = "--version";
+    char* command[] = {mpirun.data(), option.data(), nullptr};
+    run(command);
   }
   close(ends[1]);
   const Descriptor version(ends[0]);
@@ -137,7 +142,12 @@ bool is_open_mpi(const std::string& mpirun) {
   char piece[256];
   for (ssize_t size; (size = read(version.get(), piece, sizeof piece)) > 0;)
     text.append(piece, static_cast<std::size_t>(size));
-  waitpid(child, nullptr, 0);
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (status != 0) {  // the child has said why
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    fail(mpirun + " --version: exit code " + std::to_string(code), code);
+  }
   return text.find("Open MPI") != std::string::npos || text.find("OpenRTE") != std::string::npos;
 }
 
@@ -192,12 +202,47 @@ Descriptor environment_file() {
   return std::fclose(stream) == 0 ? std::move(file) : Descriptor();
 }
 
+/// A closed descriptor 0, 1 or 2 would become that of a file of ours, and of the model's. After this it
+/// cannot be read, or written, either.
+void occupy_closed_standard_streams() {
+  for (int fd = 0; fd < 3; ++fd)
+    if (fcntl(fd, F_GETFD) < 0) open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
+/// mpirun and the model are not in the foreground of the terminal, and must not read it. So they get a pipe,
+/// and a thread writes into it what it reads from the terminal.
+void put_pipe_before_terminal() {
+  int ends[2];
+  if (!isatty(STDIN_FILENO) || pipe2(ends, O_CLOEXEC) != 0) return;
+  const int terminal = fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0);
+  dup2(ends[0], STDIN_FILENO);
+  close(ends[0]);
+  std::thread([terminal, to = ends[1]] {
+    char piece[4096];
+    for (;;) {
+      const ssize_t size = read(terminal, piece, sizeof piece);
+      if (size < 0 && (errno == EIO || errno == EINTR)) {  // EIO: this process is in the background
+        const timespec nap{0, 100000000};
+        nanosleep(&nap, nullptr);
+      } else if (size <= 0 || write(to, piece, static_cast<std::size_t>(size)) != size) {
+        break;
+      }
+    }
+    close(to);
+  }).detach();
+}
+
 /// True if stdin is a file. Then the model gets it directly, so that it can rewind it and mpirun does not
 /// move its position. Open MPI forwards any other stdin; Hydra must not, because it ends the job if the model
 /// does not read at once.
 bool stdin_is_a_file() {
   struct stat status;
   return fstat(STDIN_FILENO, &status) == 0 && S_ISREG(status.st_mode);
+}
+
+bool stdin_can_be_read() {
+  const int mode = fcntl(STDIN_FILENO, F_GETFL);
+  return mode >= 0 && (mode & O_ACCMODE) != O_WRONLY;
 }
 
 /// Open MPI reads all of stdin to forward it. With its own file description it does not move the model's
@@ -224,14 +269,15 @@ class ErrorLines {
   /// True if Open MPI has refused to start more ranks than there are processors.
   bool lack_of_slots() const { return lack_of_slots_; }
 
-  /// Forwards what has arrived so far. False at the end of the stream.
-  bool pass_on() {
+  /// Forwards what has arrived so far; without `losses`, the ends of ranks are expected, and not reported.
+  /// False at the end of the stream.
+  bool pass_on(bool losses) {
     char piece[4096];
     ssize_t size;
     while ((size = read(ends_[0], piece, sizeof piece)) > 0) {
       text_.append(piece, static_cast<std::size_t>(size));
       for (std::size_t end; (end = text_.find('\n')) != std::string::npos; text_.erase(0, end + 1))
-        pass_on_line(text_.substr(0, end + 1));
+        pass_on_line(text_.substr(0, end + 1), losses);
       // Hold back the beginning of a line only if the line may name a rank.
       if (text_.compare(0, kRank.size(), kRank, 0, text_.size()) != 0) write_all(std::exchange(text_, {}));
     }
@@ -239,17 +285,17 @@ class ErrorLines {
   }
 
   /// After the end of mpirun. Does not wait for the end of the stream, which other processes may have open.
-  void finish() {
-    pass_on();
+  void finish(bool losses) {
+    pass_on(losses);
     write_all(text_);
   }
 
  private:
-  void pass_on_line(const std::string& line) {
+  void pass_on_line(const std::string& line, bool losses) {
     const bool names_rank = line.compare(0, kRank.size(), kRank) == 0;
-    const bool is_another_loss =
-        names_rank && has_named_rank_ && line.find(" was lost ") != std::string::npos;
-    if (!is_another_loss) write_all(line);
+    const bool is_known_loss =
+        names_rank && (has_named_rank_ || !losses) && line.find(" was lost ") != std::string::npos;
+    if (!is_known_loss) write_all(line);
     has_named_rank_ = has_named_rank_ || names_rank;
     lack_of_slots_ = lack_of_slots_ || line.find("not enough slots available") != std::string::npos;
   }
@@ -259,6 +305,36 @@ class ErrorLines {
   int ends_[2] = {-1, -1};
   std::string text_;
   bool has_named_rank_ = false, lack_of_slots_ = false;
+};
+
+/// mpirun, a child process.
+class Mpirun {
+ public:
+  explicit Mpirun(pid_t process) : process_(process) {}
+  void send(int signal) const {
+    if (process_ > 0) kill(process_, signal);
+  }
+  /// From now on it has this time to end. Then it gets SIGTERM, and 5 s later SIGKILL; if this is called
+  /// again, sooner.
+  void end_in(std::chrono::seconds time) { next_ = std::max(soonest_, std::min(next_, Clock::now() + time)); }
+  /// To be called after every tick(). True if mpirun has ended.
+  bool has_ended() {
+    if (process_ > 0 && waitpid(process_, &status_, WNOHANG) == process_) process_ = -1;
+    if (process_ > 0 && Clock::now() >= next_) {
+      send(std::exchange(signal_, SIGKILL));
+      soonest_ = Clock::now() + std::chrono::seconds(1);
+      next_ = Clock::now() + std::chrono::seconds(5);
+    }
+    return process_ < 0;
+  }
+  /// In milliseconds; -1: for ever.
+  int tick() const { return process_ > 0 && next_ != Clock::time_point::max() ? 50 : -1; }
+  int status() const { return status_; }
+
+ private:
+  pid_t process_;
+  int status_ = 0, signal_ = SIGTERM;
+  Clock::time_point next_ = Clock::time_point::max(), soonest_;
 };
 
 /// Ends this process as the model ended: with the same exit code or by the same signal.
@@ -282,6 +358,12 @@ int main(int, char** argv) {
   const Arguments arguments = read_arguments(argv);
   if (arguments.ranks == 1) run(arguments.program);
 
+  occupy_closed_standard_streams();
+  pstripack::Greeting greeting;
+  for (int s = 1; s < NSIG; ++s)
+    if (struct sigaction action; sigaction(s, nullptr, &action) == 0 && action.sa_handler == SIG_IGN)
+      greeting.ignored |= std::uint64_t{1} << (s - 1);
+  greeting.ignored |= std::uint64_t{1} << (SIGTTOU - 1);  // a process in the background may write
   const Descriptor environment = environment_file();
   std::string name;
   const Descriptor listener = pstripack::listen_under_new_name(&name);
@@ -293,21 +375,29 @@ int main(int, char** argv) {
 
   sigset_t signals, before;
   sigemptyset(&signals);
-  const int forwarded[] = {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2};
-  for (const int signal : forwarded) sigaddset(&signals, signal);
-  sigaddset(&signals, SIGCHLD);
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGTSTP, SIGCONT, SIGCHLD})
+    sigaddset(&signals, signal);
   sigprocmask(SIG_BLOCK, &signals, &before);
   const Descriptor signal_file(signalfd(-1, &signals, SFD_CLOEXEC));
+  signal(SIGTTIN, SIG_IGN);
+  signal(SIGPIPE, SIG_IGN);
+  put_pipe_before_terminal();
 
   ErrorLines errors;
   if (!errors.open()) fail(std::string("pipe: ") + std::strerror(errno), 1);
-  const pid_t mpirun = fork();
-  if (mpirun < 0) fail(std::string("fork: ") + std::strerror(errno), 1);
-  if (mpirun == 0) {
+  const pid_t me = getpid(), process = fork();
+  if (process < 0) fail(std::string("fork: ") + std::strerror(errno), 1);
+  if (process == 0) {
     prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (getppid() != me) _exit(128 + SIGTERM);
+    // What a terminal or timeout(1) sends to our group is for the model, not for mpirun.
+    setpgid(0, 0);
+    signal(SIGTTIN, SIG_DFL);
+    signal(SIGPIPE, SIG_DFL);
+    signal(SIGTTOU, SIG_IGN);
     sigprocmask(SIG_SETMASK, &before, nullptr);
     errors.become_stderr();
-    if (!open_mpi)
+    if (!open_mpi || !stdin_can_be_read())
       dup2(Descriptor(open("/dev/null", O_RDONLY)).get(), STDIN_FILENO);
     else if (stdin_is_a_file())
       give_mpirun_its_own_input();
@@ -318,54 +408,69 @@ int main(int, char** argv) {
   }
 
   errors.leave_to_mpirun();
-
-  Descriptor steward;  // rank 0
-  pstripack::ModelNews model, news;
-  int mpirun_status = 0;
-  bool told_to_end = false, errors_are_open = true;
-  for (;;) {
+  Mpirun mpirun(process);
+  Descriptor keeper;
+  pstripack::ModelEnd model;
+  int told_to_end = 0, interrupts = 0;  // told_to_end: by which signal
+  Clock::time_point told_at;
+  bool has_begun = false, has_ended = false, errors_are_open = true;
+  while (!mpirun.has_ended() || keeper) {
     pollfd events[] = {{signal_file.get(), POLLIN, 0},
-                       {steward ? -1 : listener.get(), POLLIN, 0},
-                       {steward.get(), POLLIN, 0},
+                       {has_begun ? -1 : listener.get(), POLLIN, 0},
+                       {keeper.get(), POLLIN, 0},
                        {errors_are_open ? errors.from() : -1, POLLIN, 0}};
-    if (poll(events, 4, -1) < 0) continue;
-    if (events[3].revents != 0) errors_are_open = errors.pass_on();
-    if (events[1].revents != 0) {
-      steward = pstripack::accept_from(listener);
-      const int descriptors[4] = {!open_mpi || stdin_is_a_file() ? STDIN_FILENO : -1, STDOUT_FILENO,
-                                  STDERR_FILENO, environment.get()};
-      const char hello = 0;
-      if (steward && !pstripack::send_packet(steward, &hello, 1, descriptors, 4)) steward.reset();
+    if (poll(events, 4, mpirun.tick()) < 0) continue;
+    if (events[1].revents != 0 && (keeper = pstripack::accept_from(listener))) {
+      const int descriptors[4] = {!open_mpi || stdin_is_a_file() || !stdin_can_be_read() ? STDIN_FILENO : -1,
+                                  STDOUT_FILENO, STDERR_FILENO, environment.get()};
+      has_begun = pstripack::send_packet(keeper, &greeting, sizeof greeting, descriptors, 4);
+      if (!has_begun) keeper.reset();
     }
     if (events[2].revents != 0) {
-      if (pstripack::receive_packet(steward, &news, sizeof news))
-        model = news;
-      else
-        steward.reset();
+      has_ended = pstripack::receive_packet(keeper, &model, sizeof model);
+      keeper.reset();
+      if (told_to_end != 0) mpirun.end_in(std::chrono::seconds(10));
     }
-    signalfd_siginfo signal;
-    if (events[0].revents == 0 || read(signal_file.get(), &signal, sizeof signal) < 0) continue;
-    const auto number = static_cast<int>(signal.ssi_signo);
-    if (number != SIGCHLD && number != SIGUSR1 && number != SIGUSR2) told_to_end = true;
-    // A signal sent to this process is meant for the model. A terminal sends its signals to mpirun, too.
-    if (number != SIGCHLD && signal.ssi_code <= 0 && !model.has_ended)
-      kill(model.process > 0 ? model.process : mpirun, number);
-    if (waitpid(mpirun, &mpirun_status, WNOHANG) == mpirun) break;
+    signalfd_siginfo arrived;
+    if (events[0].revents != 0 && read(signal_file.get(), &arrived, sizeof arrived) > 0 &&
+        arrived.ssi_signo != SIGCHLD) {
+      pstripack::SignalForModel signal{static_cast<std::int32_t>(arrived.ssi_signo)};
+      const bool tells_to_end = greeting.tells_to_end(signal.number);
+      if (tells_to_end) {
+        const Clock::time_point before_now = std::exchange(told_at, Clock::now());
+        // timeout(1) sends its signal to this process, and then to its group.
+        if (signal.number == told_to_end && told_at < before_now + std::chrono::milliseconds(200)) continue;
+        told_to_end = signal.number;
+        if (signal.number == SIGINT && ++interrupts > 1) signal.number = SIGKILL;
+      }
+      if (signal.number == SIGKILL) mpirun.end_in(std::chrono::seconds(2));
+      if (keeper)
+        pstripack::send_packet(keeper, &signal, sizeof signal);
+      else if (tells_to_end)
+        mpirun.end_in(std::chrono::seconds(0));
+      else if (signal.number == SIGUSR1 || signal.number == SIGUSR2)
+        mpirun.send(signal.number);
+      if (signal.number == SIGTSTP) raise(SIGSTOP);
+    }
+    if (events[3].revents != 0) errors_are_open = errors.pass_on(told_to_end == 0);
+    if (errors.has_named_rank()) mpirun.end_in(std::chrono::seconds(5));
   }
-  errors.finish();
-  while (steward && !model.has_ended && pstripack::receive_packet(steward, &news, sizeof news)) model = news;
+  errors.finish(told_to_end == 0);
   // If mpirun failed without being told to end, a rank was lost, whatever the status of the model is.
-  if (model.has_ended && (mpirun_status == 0 || told_to_end)) end_like(model.status);
-  if (WIFSIGNALED(mpirun_status) && !told_to_end)
+  if (has_ended && (mpirun.status() == 0 || told_to_end != 0)) end_like(model.status);
+  if (told_to_end != 0) end_like(told_to_end);
+  if (errors.has_named_rank()) end_like(mpirun.status());
+  if (WIFSIGNALED(mpirun.status()))
     std::fprintf(stderr, "pstripack-run: mpirun was ended by signal %d, and the model with it\n",
-                 WTERMSIG(mpirun_status));
+                 WTERMSIG(mpirun.status()));
   else if (errors.lack_of_slots())
-    std::fprintf(stderr, "pstripack-run: more ranks than processors: pstripack-run -n %d --oversubscribe -- COMMAND\n",
-                 arguments.ranks);
-  else if ((model.process > 0 || model.has_ended) && !told_to_end && !errors.has_named_rank())
+    std::fprintf(
+        stderr, "pstripack-run: more ranks than processors: pstripack-run -n %d --oversubscribe -- COMMAND\n",
+        arguments.ranks);
+  else if (has_begun)
     std::fprintf(stderr,
                  "pstripack-run: mpirun has ended the job with exit code %d: a machine is lost, or a rank, "
                  "and the model with it\n",
-                 WEXITSTATUS(mpirun_status));
-  end_like(mpirun_status);
+                 WEXITSTATUS(mpirun.status()));
+  end_like(mpirun.status());
 }

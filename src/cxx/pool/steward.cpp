@@ -1,20 +1,12 @@
 #include "pool/steward.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <stdlib.h>
-#include <sys/mman.h>
-#include <sys/prctl.h>
-#include <sys/signalfd.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
-#include <time.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -26,6 +18,8 @@
 #include "base/environment.h"
 #include "mpi/collective_trmesh.h"
 #include "pool/area_layout.h"
+#include "pool/keeper.h"
+#include "pool/messages.h"
 
 namespace pstripack {
 namespace {
@@ -34,8 +28,8 @@ namespace {
 struct Order {
   std::int32_t real_bytes = 0;  ///< 4 or 8, the size of the nodes' reals; 0: the end
   std::int32_t n = 0;
-  std::int64_t area = 0;    ///< number of the area that holds the arrays
-  SharedArea::Name name{};  ///< its name, if it is new
+  std::int64_t area = 0;        ///< number of the area that holds the arrays
+  std::int32_t sends_area = 0;  ///< its descriptor follows on the sockets of connect_ranks()
 };
 
 void tell_workers(const Order& order) { tell_others(&order, sizeof order); }
@@ -57,113 +51,83 @@ TrmeshResult carry_out(MpiCommunicator& ranks, Arrays arrays, const Order& order
   return collective_trmesh(ranks, arrays, call, cost);
 }
 
-/// The environment of pstripack-run, from the file that it sent: NAME=VALUE, each closed by a zero. It has no
-/// variables of MPI, so a model that uses MPI itself is a single process, as without the pool.
-std::vector<char*> environment_in(const Descriptor& file) {
-  std::vector<char*> all;
-  struct stat status;
-  if (fstat(file.get(), &status) != 0 || status.st_size == 0) return all;
-  const auto size = static_cast<std::size_t>(status.st_size);
-  void* const text = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.get(), 0);
-  if (text == MAP_FAILED) return all;
-  for (char* at = static_cast<char*>(text); at < static_cast<char*>(text) + size; at += strlen(at) + 1)
-    all.push_back(at);
-  return all;
-}
-
-/// Used if that file is missing: this process's environment without the variables that mpirun added.
-std::vector<char*> environment_without_mpi() {
-  std::vector<char*> all;
-  for (char** at = environ; *at != nullptr; ++at)
-    if (!is_from_mpi_launcher(*at)) all.push_back(*at);
-  return all;
+/// Sockets between rank 0 and each other rank, to pass on descriptors of memory: on rank 0 one for each, on
+/// the others one. None on any rank if a rank cannot reach rank 0, such as one on another machine.
+/// Collective.
+std::vector<Descriptor> connect_ranks(MpiCommunicator& ranks) {
+  constexpr int kAtOnce = 64;  // fewer than any system lets wait for accept()
+  std::string name;
+  Descriptor listener;
+  char text[64] = "";
+  if (ranks.rank() == 0 && (listener = listen_under_new_name(&name))) std::strcpy(text, name.c_str());
+  ranks.broadcast(text, sizeof text, 0);
+  std::vector<Descriptor> sockets;
+  for (int first = 1; first < ranks.size(); first += kAtOnce) {
+    const int last = std::min(first + kAtOnce, ranks.size());
+    if (first <= ranks.rank() && ranks.rank() < last) sockets.push_back(connect_to(text));
+    std::int64_t reached = sockets.empty() || sockets.back() ? 1 : 0;
+    ranks.all_min(&reached, 1);
+    if (reached == 0) return {};
+    for (int r = first; ranks.rank() == 0 && r < last; ++r) sockets.push_back(accept_from(listener));
+  }
+  return sockets;
 }
 
 }  // namespace
 
-Steward::Steward(char** command) {
-  Descriptor from_launcher[4];
+Steward::Steward(char** command, const Watchdog& watchdog) {
+  Launcher launcher;
   if (const char* const name = environment_variable("PSTRIPACK_POOL_LAUNCHER")) {
-    launcher_ = connect_to(name);
-    char hello = 0;
-    if (launcher_ && !receive_packet(launcher_, &hello, 1, from_launcher, 4)) launcher_.reset();
+    launcher.socket = connect_to(name);
+    if (launcher.socket &&
+        !receive_packet(launcher.socket, &launcher.greeting, sizeof launcher.greeting, launcher.files, 4))
+      launcher.socket.reset();
   }
-  listener_ = listen_under_new_name(&name_);
+  has_launcher_ = static_cast<bool>(launcher.socket);
+  std::string name;
+  listener_ = listen_under_new_name(&name);
   if (!listener_) std::perror("pstripack: pool: no socket, trmesh runs on threads");
-
-  sigset_t child, before;
-  sigemptyset(&child);
-  sigaddset(&child, SIGCHLD);
-  sigprocmask(SIG_BLOCK, &child, &before);
-  child_signals_.reset(signalfd(-1, &child, SFD_CLOEXEC));
-  const pid_t me = getpid();
-  model_ = fork();
-  if (model_ == 0 && (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != me)) _exit(128 + SIGKILL);
-  if (model_ == 0) become_the_model(command, from_launcher, before);
-  if (model_ < 0) {
-    std::perror("pstripack-worker: fork");
-    status_ = 126 << 8;
-  }
-  const ModelNews news{static_cast<std::int32_t>(model_), 0, 0};
-  if (launcher_ && model_ > 0) send_packet(launcher_, &news, sizeof news);
+  keeper_ = start_keeper(command, name, std::move(launcher), listener_, watchdog);
+  if (keeper_) return;
+  std::perror("pstripack-worker: no process for the model");
+  std::exit(126);
 }
 
-void Steward::become_the_model(char** command, Descriptor (&from_launcher)[4],
-                               const sigset_t& signals) const {
-  for (const int signal : {SIGUSR1, SIGUSR2, SIGTERM}) ::signal(signal, SIG_DFL);
-  sigprocmask(SIG_SETMASK, &signals, nullptr);
-  for (int fd = 0; fd < 3; ++fd)
-    if (from_launcher[fd]) dup2(from_launcher[fd].get(), fd);
-  std::vector<char*> environment = environment_in(from_launcher[3]);
-  if (environment.empty()) environment = environment_without_mpi();
-  std::string pool = "PSTRIPACK_POOL=" + name_;
-  const auto is_ours = [](const char* variable) {
-    return strncmp(variable, "PSTRIPACK_POOL=", 15) == 0 ||
-           strncmp(variable, "PSTRIPACK_POOL_LAUNCHER=", 24) == 0;
-  };
-  environment.erase(std::remove_if(environment.begin(), environment.end(), is_ours), environment.end());
-  environment.push_back(pool.data());
-  environment.push_back(nullptr);
-  execvpe(command[0], command, environment.data());
-  const int error = errno;
-  std::fprintf(stderr, "pstripack-run: %s: %s\n", command[0], strerror(error));
-  _exit(error == ENOENT ? 127 : 126);
-}
-
-bool Steward::model_has_ended() {
-  if (model_ < 0) return true;
-  if (waitpid(model_, &status_, WNOHANG) != model_) return false;
-  model_ = -1;
-  const ModelNews news{0, 1, status_};
-  told_ = launcher_ && send_packet(launcher_, &news, sizeof news);
-  return true;
-}
-
-void Steward::see_the_model_end() {
-  const timespec nap{0, 1000000};
-  while (!model_has_ended()) nanosleep(&nap, nullptr);
+void Steward::pass_on(int number) {
+  const SignalForModel signal{number};
+  if (!has_launcher_) send_packet(keeper_, &signal, sizeof signal);
 }
 
 int Steward::serve(MpiCommunicator& ranks) {
+  sockets_ = connect_ranks(ranks);
   std::vector<pollfd> events;
-  while (!model_has_ended()) {
+  for (;;) {
     ranks.set_phase("its wait for a call");
-    events = {{child_signals_.get(), POLLIN, 0}, {listener_.get(), POLLIN, 0}};
+    events = {{keeper_.get(), POLLIN, 0}, {listener_.get(), POLLIN, 0}};
     for (const Client& client : clients_) events.push_back({client.socket.get(), POLLIN, 0});
     if (poll(events.data(), events.size(), -1) < 0) continue;
-
-    signalfd_siginfo ignored;
-    if (events[0].revents != 0 && read(child_signals_.get(), &ignored, sizeof ignored) < 0) continue;
+    if (events[0].revents != 0) break;
     for (std::size_t i = clients_.size(); i-- > 0;)
       if (events[i + 2].revents != 0 && !serve(clients_[i], ranks))
         clients_.erase(clients_.begin() + static_cast<std::ptrdiff_t>(i));
     if (events[1].revents != 0)
       if (Descriptor socket = accept_from(listener_)) clients_.push_back({std::move(socket), {}});
   }
+  ModelEnd end;
+  const bool is_known = receive_packet(keeper_, &end, sizeof end);
+  if (!is_known) end.status = SIGKILL;  // as the keeper
   clients_.clear();
   tell_workers({});
-  if (told_) return 0;
-  return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
+  if (has_launcher_ && is_known) return 0;
+  return WIFEXITED(end.status) ? WEXITSTATUS(end.status) : 128 + WTERMSIG(end.status);
+}
+
+/// A rank that cannot get it finds the socket closed.
+void Steward::send_to_workers(const Descriptor& file) {
+  const int descriptor = file.get();
+  const char nothing = 0;
+  for (Descriptor& socket : sockets_)
+    if (!send_packet(socket, &nothing, 1, &descriptor, 1)) socket.reset();
 }
 
 bool Steward::serve(Client& client, MpiCommunicator& ranks) {
@@ -181,8 +145,9 @@ bool Steward::serve(Client& client, MpiCommunicator& ranks) {
     return send_packet(client.socket, &reply, sizeof reply);
 
   ranks.set_phase("the start of a call");
-  Order order{request.real_bytes, request.n, client.area_number, client.area.name()};
+  const Order order{request.real_bytes, request.n, client.area_number, client.area.file() ? 1 : 0};
   tell_workers(order);
+  if (order.sends_area != 0) send_to_workers(client.area.file());
   TrmeshResult result{0};
   try {
     const Arrays arrays = all_share(ranks, client.area, order) ? Arrays::shared : Arrays::on_one_rank;
@@ -201,7 +166,8 @@ bool Steward::serve(Client& client, MpiCommunicator& ranks) {
   return send_packet(client.socket, &reply, sizeof reply);
 }
 
-void serve_as_worker(MpiCommunicator& ranks, bool beside_rank_0) {
+void serve_as_worker(MpiCommunicator& ranks) {
+  const std::vector<Descriptor> sockets = connect_ranks(ranks);
   SharedArea area;
   std::int64_t area_number = 0;
   for (;;) {
@@ -209,11 +175,13 @@ void serve_as_worker(MpiCommunicator& ranks, bool beside_rank_0) {
     Order order;
     wait_for_rank_0(&order, sizeof order);
     if (order.real_bytes == 0) return;
-    if (order.area != area_number) {
-      area = SharedArea();
-      if (beside_rank_0) area = SharedArea::map(order.name.text);
+    if (order.area != area_number) area = SharedArea();
+    area_number = order.area;
+    if (Descriptor file; order.sends_area != 0 && !sockets.empty()) {
+      char nothing = 0;
+      receive_packet(sockets[0], &nothing, 1, &file, 1);
+      area = SharedArea::map(std::move(file));
       area.close_file();
-      area_number = order.area;
     }
     try {
       const bool shared = all_share(ranks, area, order);

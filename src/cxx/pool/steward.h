@@ -3,8 +3,8 @@
 //
 //   pstripack-run
 //     mpirun
-//       rank 0: steward --- fork, exec ---> the model
-//                  ^------- socket, shared memory -- (its libpstripack: pool/client.cpp)
+//       rank 0: steward --- fork ---> keeper (pool/keeper.h) --- fork, exec ---> the model
+//                  ^------- socket, shared memory -- (its libpstripack: pool/client.cpp) ---'
 //       rank 1..P-1: workers
 //
 // If all ranks are on one machine they read the nodes from memory that the model shares, and write the lists
@@ -13,27 +13,23 @@
 // The model is not an MPI process. So nothing it does can harm MPI or hang the ranks: it may end in any way,
 // never call TRMESH, be a script that starts one model after another, fork, or use MPI for itself.
 
-#include <signal.h>
-#include <sys/types.h>
-
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "base/shared_area.h"
 #include "mpi/collective_trmesh.h"
 #include "mpi/world.h"
 #include "pool/channel.h"
-#include "pool/messages.h"
+#include "pool/watchdog.h"
 
 namespace pstripack {
 
-/// Rank 0. Starts the model, carries out its calls with all ranks, and reports how it ended.
+/// Rank 0. Has the model started, and carries out its calls with all ranks.
 class Steward {
  public:
   /// Starts the model with this command line. To be called before MPI_Init, which takes long and for which
   /// the model need not wait.
-  explicit Steward(char** command);
+  Steward(char** command, const Watchdog& watchdog);
   Steward(const Steward&) = delete;
   Steward& operator=(const Steward&) = delete;
 
@@ -41,8 +37,8 @@ class Steward {
   /// serve_as_worker() on the other ranks.
   int serve(MpiCommunicator& ranks);
 
-  /// In the handler of a signal that the model got, too: waits until the model has ended, and reports how.
-  void see_the_model_end();
+  /// In a signal handler: passes on a signal from mpirun to a model that pstripack-run does not reach.
+  void pass_on(int number);
 
  private:
   struct Client {
@@ -51,25 +47,19 @@ class Steward {
     std::int64_t area_number = 0;
   };
 
-  [[noreturn]] void become_the_model(char** command, Descriptor (&from_launcher)[4],
-                                     const sigset_t& signals) const;
-  bool model_has_ended();
   /// Serves one request of a client. False if the client is gone.
   bool serve(Client& client, MpiCommunicator& ranks);
+  void send_to_workers(const Descriptor& file);
 
-  Descriptor launcher_;  ///< pstripack-run; none if it is on another machine
-  std::string name_;
-  Descriptor listener_, child_signals_;
+  bool has_launcher_;  ///< pstripack-run is on this machine; the keeper tells it how the model ended
+  Descriptor listener_, keeper_;
+  std::vector<Descriptor> sockets_;  ///< to the other ranks, see connect_ranks()
   std::vector<Client> clients_;
   std::int64_t areas_ = 0;  ///< number of areas so far
-  pid_t model_ = -1;
-  int status_ = 0;     ///< of the model, as returned by wait()
-  bool told_ = false;  ///< pstripack-run knows that the model has ended
 };
 
-/// Every other rank: takes part in calls until the pool ends. beside_rank_0: on the machine of rank 0.
-/// Collective.
-void serve_as_worker(MpiCommunicator& ranks, bool beside_rank_0);
+/// Every other rank: takes part in calls until the pool ends. Collective.
+void serve_as_worker(MpiCommunicator& ranks);
 
 /// Sets the number of threads of this rank to its share of the processors, unless OMP_NUM_THREADS is set.
 void share_processors(const RanksOfMachine& here);

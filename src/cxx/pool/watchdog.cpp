@@ -22,7 +22,8 @@ Watchdog::Watchdog(int rank) : launcher_(getppid()) {
   const pid_t rank_process = getpid();
   const pid_t watchdog = fork();
   if (watchdog != 0) {
-    close(alive[0]);  // the rank keeps the other end open until it ends
+    close(alive[0]);
+    pipe_ = alive[1];  // stays open until the rank ends
     return;
   }
 

@@ -2,6 +2,7 @@
 // Reports that a rank of the pool was killed.
 
 #include <sys/types.h>
+#include <unistd.h>
 
 namespace pstripack {
 
@@ -23,6 +24,8 @@ class Watchdog {
     if (page_ != nullptr) page_->dismissed = 1;
   }
   pid_t launcher() const { return launcher_; }
+  /// In a child process, which must not look like the rank to the watchdog.
+  void close_pipe() const { close(pipe_); }
 
  private:
   struct Page {
@@ -31,6 +34,7 @@ class Watchdog {
   };
   Page* page_ = nullptr;
   pid_t launcher_;
+  int pipe_ = -1;  ///< its end closes with the rank
 };
 
 }  // namespace pstripack

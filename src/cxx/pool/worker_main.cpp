@@ -15,10 +15,9 @@
 namespace {
 
 pstripack::Watchdog* watchdog = nullptr;
-pstripack::Steward* steward = nullptr;
+pstripack::Steward* steward = nullptr;  ///< on rank 0
 
-/// Handles SIGTERM from mpirun, which ends a job in this way; it is not a loss to be reported. Rank 0 lets
-/// the model, which got the same signal, end first; mpirun sends SIGKILL if that takes long.
+/// Handles SIGTERM from mpirun, which ends a job in this way; it is not a loss to be reported.
 void end_on_request(int signal, siginfo_t* sender, void*) {
   if (sender->si_pid != watchdog->launcher()) {
     ::signal(signal, SIG_DFL);
@@ -26,8 +25,11 @@ void end_on_request(int signal, siginfo_t* sender, void*) {
     return;
   }
   watchdog->dismiss();
-  if (steward != nullptr) steward->see_the_model_end();
   _exit(128 + signal);
+}
+
+void pass_on(int signal) {
+  if (steward != nullptr) steward->pass_on(signal);
 }
 
 /// The rank, known before MPI is initialised; -1 if this is no rank.
@@ -47,15 +49,16 @@ int main(int argc, char** argv) {
   }
   static pstripack::Watchdog the_watchdog(rank);
   watchdog = &the_watchdog;
-  static pstripack::Steward* const the_steward = rank == 0 ? new pstripack::Steward(argv + 1) : nullptr;
+  static pstripack::Steward* const the_steward =
+      rank == 0 ? new pstripack::Steward(argv + 1, the_watchdog) : nullptr;
   steward = the_steward;
   struct sigaction action {};
   action.sa_sigaction = end_on_request;
   action.sa_flags = SA_SIGINFO;
   sigaction(SIGTERM, &action, nullptr);
   // mpirun forwards these signals to all processes; they are meant for the model.
-  signal(SIGUSR1, SIG_IGN);
-  signal(SIGUSR2, SIG_IGN);
+  signal(SIGUSR1, pass_on);
+  signal(SIGUSR2, pass_on);
 
   int code = 0;
   {
@@ -68,7 +71,7 @@ int main(int argc, char** argv) {
       if (rank == 0)
         code = steward->serve(ranks);
       else
-        pstripack::serve_as_worker(ranks, here.have_rank_0);
+        pstripack::serve_as_worker(ranks);
       ranks.set_phase("the end of MPI");
     } catch (const std::exception& error) {
       std::fprintf(stderr, "pstripack: rank %d: %s\n", rank, error.what());

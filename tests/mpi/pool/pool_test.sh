@@ -50,7 +50,7 @@ kill_rank() {
 
 no_orphan() {
   for _ in 1 2 3 4 5 6 7 8 9 10; do
-    [ -z "$(named pstripack-worker)$(named pstripack-watch)$(named "$caller")" ] && return
+    [ -z "$(named pstripack-worker)$(named pstripack-watch)$(named pstripack-keep)$(named "$caller")" ] && return
     sleep 0.5
   done
   for pid in $(processes); do cat "/proc/$pid/stat"; done
@@ -109,6 +109,10 @@ input)
   # The model can read the file from its beginning, and the position in the file stays where the model has left it.
   { pool sh -c 'read a; read b; echo "$b"'; read -r c; echo "$c"; } < input.txt > rest.out
   printf 'line 1 of the input\nline 2 of the input\n' | cmp - rest.out || fail "the position in the file"
+  # No file of ours takes the place of a closed descriptor.
+  pool sh -c 'cat; find /proc/$$/fd -name "[012]" -fprintf files "%f %l\n"' <&- 2> closed.err >&-
+  printf '0 /dev/null\n1 /dev/null\n2 %s\n' "$PWD/closed.err" > expected
+  sort files | cmp - expected || fail "closed descriptors"
   # Bytes, many of them.
   head -c 3000000 /dev/urandom > bytes
   pool cat < bytes | cmp - bytes || fail "bytes of a file"
@@ -166,9 +170,10 @@ environment)
   env | grep -v '^_=' | sort > alone.out
   pool env | grep -v -e '^_=' -e '^PSTRIPACK_POOL=' | sort > pool.out
   cmp alone.out pool.out || fail "the environments differ"
-  start pid "$CALLER" pause 5000 1
+  start pid "$CALLER" pause 5000 3
+  tr '\0' '\n' < "/proc/$(process_of_rank 1 pstripack-worker)/environ" > rank_1.environment
   for variable in OMP_NUM_THREADS=2 PSTRIPACK_PARTITION=stripes; do
-    tr '\0' '\n' < "/proc/$(process_of_rank 1 pstripack-worker)/environ" | grep -q "^$variable\$" ||
+    grep -q "^$variable\$" rank_1.environment ||
       fail "$variable does not reach rank 1"
   done
   ends_within 20
@@ -193,6 +198,7 @@ EOF
   # This launcher kills all ranks at once: only the first line that names a rank is right.
   cat > mpiexec << 'EOF'
 #!/bin/sh
+[ "$1" = --version ] && exit
 for rank in 2 0 1; do echo "pstripack: rank $rank was lost during merge; the job ends"; done >&2
 printf 'and more' >&2
 exit 9
@@ -301,13 +307,96 @@ kill_model)
   [ ! -s job.err ] || fail "stderr is not empty"
   ;;
 terminate)
-  # The signal reaches the model, which handles it.
-  start waiting "$CALLER" term
-  kill -TERM "$job"
+  # Each signal reaches the model once, and the model has the two seconds that it takes to save. TERM_group: as from
+  # timeout(1), to pstripack-run and to its group; all: as from a batch system, to all processes of the job, or session.
+  runs="TERM_group INT_group HUP_group QUIT_group TERM_alone TERM_all"
+  for run in $runs; do
+    : > "$run.out"
+    JOB=$dir/$run setsid "$RUN" -n "$ranks" --oversubscribe -- "$CALLER" save < /dev/null > "$run.out" 2> "$run.err" &
+    echo $! > "$run.job"
+  done
+  for run in $runs; do
+    until grep -q waiting "$run.out"; do sleep 0.1; done
+    job=$(cat "$run.job") signal=${run%_*}
+    case $run in
+    *_group) kill "-$signal" "$job" && kill "-$signal" "-$job" ;;
+    *_alone) kill "-$signal" "$job" ;;
+    *_all) JOB=$dir/$run && kill "-$signal" $(processes) ;;
+    esac
+  done
+  for run in $runs; do
+    job=$(cat "$run.job")
+    wait "$job"
+    code=$?
+    job=
+    [ $code -eq 5 ] || fail "$run: exit code $code"
+    printf 'waiting\nsaved, 1 signal\n' | cmp - "$run.out" || fail "$run: the model was not told once, or did not save"
+    [ ! -s "$run.err" ] || fail "$run: stderr is not empty"
+    JOB=$dir/$run && no_orphan
+  done
+  ;;
+terminal)
+  # The model reads what is typed. Ctrl-C reaches it once; the second one ends it at once.
+  cat > model.sh << 'EOF'
+trap 'echo saving; sleep 1; echo saved' INT
+echo waiting
+read -r line
+echo "line: $line"
+while :; do sleep 0.1; done
+EOF
+  : > job.out
+  {
+    until_it_says waiting
+    echo 'some words'
+    until_it_says 'line: some words'
+    printf '\003'
+    until_it_says saved
+    printf '\003'
+    sleep 5
+  } | script -qec "'$RUN' -n $ranks --oversubscribe -- sh model.sh" /dev/null > job.out
+  code=$?
+  [ $code -eq 137 ] || fail "exit code $code"
+  [ "$(grep -c saving job.out)" -eq 1 ] || fail "not one signal"
+  no_orphan
+  ;;
+own_processes)
+  # Ranks with process numbers of their own, as in containers, have no memory but what is passed to them: /proc names
+  # other files. Here a file of the user has all descriptors of rank 1.
+  unshare --pid --fork --mount-proc true || exit 77
+  cp "$RUN" pstripack-run
+  head -c 1000000 /dev/zero > data
+  cat > pstripack-worker << EOF
+#!/bin/bash
+[ "\$OMPI_COMM_WORLD_RANK" != 1 ] || for i in {3..60}; do eval "exec \$i<>data"; done
+exec unshare --pid --fork --mount-proc "$(dirname "$RUN")/pstripack-worker" "\$@"
+EOF
+  chmod +x pstripack-worker
+  export OMPI_MCA_btl=tcp,self PSTRIPACK_REPORT=report
+  ./pstripack-run -n "$ranks" --oversubscribe -- "$CALLER" calls 5000 2 > calls.out 2> calls.err || fail "exit code"
+  grep -q '^pool$' calls.out || fail "the pool was not used"
+  head -c 1000000 /dev/zero | cmp - data || fail "a file of the user has changed"
+  ;;
+stuck)
+  # An mpirun that does not end: after SIGTERM, and after the loss of a rank.
+  cat > mpirun << 'EOF'
+#!/bin/sh
+[ "$1" = --version ] && { echo 'mpirun (Open MPI) 4.1.4'; exit; }
+case $LOSES in yes) echo 'pstripack: rank 1 was lost during the start of MPI; the job ends' >&2 ;; *) trap '' TERM ;; esac
+echo waiting
+while :; do sleep 0.1; done
+EOF
+  chmod +x mpirun
+  export PSTRIPACK_MPIRUN=./mpirun
+  LOSES=yes "$RUN" -n 2 true > lost.out 2> lost.err &
+  lost=$!
+  start waiting true
+  kill "$job"
   ends_within 10
-  [ $code -eq 6 ] || fail "exit code $code"
-  grep -q terminated job.out || fail "the model did not see it"
-  [ ! -s job.err ] || fail "stderr is not empty"
+  [ $code -eq 143 ] || fail "exit code $code"
+  job=$lost
+  ends_within 10
+  [ $code -ne 0 ] || fail "exit code 0 of a lost job"
+  [ "$(cat lost.err)" = 'pstripack: rank 1 was lost during the start of MPI; the job ends' ] || fail "a lost job: message"
   ;;
 report)
   # The model writes the lines for its calls by the pool and on its own threads.
@@ -405,6 +494,14 @@ EOF
   done
   PSTRIPACK_MPIRUN=/no/mpirun "$RUN" -n 2 true 2> mpirun.err && fail "no mpirun"
   grep -q '/no/mpirun: No such file' mpirun.err || fail "no mpirun: message"
+  printf '#!/bin/sh\necho cannot >&2; exit 3\n' > mpirun
+  PSTRIPACK_MPIRUN=./mpirun "$RUN" -n 2 true 2> mpirun.err
+  [ $? -eq 3 ] || fail "an mpirun that fails: exit code"
+  printf 'cannot\npstripack-run: ./mpirun --version: exit code 3\n' | cmp - mpirun.err || fail "an mpirun that fails: message"
+  if unshare --mount mount -t tmpfs none /proc; then
+    unshare --mount sh -c 'mount -t tmpfs none /proc && exec "$RUN" -n 2 true' 2> proc.err && fail "no /proc"
+    grep -q 'mount /proc' proc.err || fail "no /proc: message"
+  fi
   ;;
 *)
   fail "no such case"
