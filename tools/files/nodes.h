@@ -17,6 +17,9 @@ enum class Container { detected, text, netcdf, geojson, raw };
 enum class Coordinates { detected, xyz, lonlat };
 enum class Units { said_or_unmistakable, degrees, radians };
 
+/// Lengths of vectors that differ by at most this part of them are equal: text has six digits or more.
+constexpr double kSameLength = 1e-6;
+
 struct ReadOptions {
   Container container = Container::detected;  ///< raw doubles are not detected
   Coordinates coordinates = Coordinates::detected;
@@ -32,7 +35,8 @@ struct ReadOptions {
   std::vector<std::string> usual_variables =
       {};  ///< without a name, the first of these that a NetCDF file has
   /// Names, or in text column numbers, separated by commas: lon,lat or x,y,z, then the columns to read.
-  /// Empty: the names in the file decide, or else the first columns are read.
+  /// Empty: the names in the file decide, or else the first columns are read: of three x y z where these have
+  /// one length or cannot be lon lat, else lon lat.
   std::string columns;
   /// Of NetCDF: read only slice `part` of `parts` equal slices of the nodes, which must not be a grid.
   std::size_t part = 0, parts = 1;
@@ -85,7 +89,7 @@ struct Nodes {
 /// file, line or index, and remedy.
 Nodes read(const std::string& file, const ReadOptions& options = {});
 
-/// True if the first bytes are those of NetCDF's own formats or of HDF5.
+/// True if it is a file, no pipe, whose first bytes are those of NetCDF's own formats or of HDF5.
 bool is_netcdf(const std::string& file);
 
 // Below: one reader per container.
