@@ -200,7 +200,7 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
             layout.columns == 1 ? "" : "s",
             layout.columns == 1 ? "" : ": say --coordinates lonlat or xyz, or choose --columns 1,2"));
       columns = is_third ? 2 : layout.columns - (has_value ? 1 : 0);
-      choice.is_guess = !has_value && columns == 3;
+      choice.is_guess = options.lengths_decide && !has_value && columns == 3;
     }
     if (candidates.size() < columns)
       fail(fmt::format("has {} columns; --coordinates {} needs {}{}", candidates.size(),
@@ -268,7 +268,7 @@ bool is_lonlat_value(const Nodes& nodes, const TextRows& rows, Units units) {
   }
   if (longest <= (1 + kSameLength) * shortest || most_lon > 360 || most_lat > 90) return false;
   const bool may_be_radians = most_lon <= 4 * kRightAngle && most_lat <= kRightAngle;
-  if (units == Units::said_or_unmistakable && longest <= (may_be_radians ? 1.01 : 1.001) * shortest)
+  if (units == Units::said_or_unmistakable && (may_be_radians || longest <= 1.001 * shortest))
     throw std::runtime_error(
         fmt::format("{}: three columns without names may be x y z, of lengths {:.7g} to {:.7g}, or lon lat "
                     "and a value: say "

@@ -34,9 +34,11 @@ struct ReadOptions {
   std::string variable;         ///< its name, or in text its number; empty: the column after the coordinates
   std::vector<std::string> usual_variables =
       {};  ///< without a name, the first of these that a NetCDF file has
+  /// Three columns of text without names are x y z only if these have one length or cannot be lon lat; else
+  /// they are lon lat value. Without this they are x y z.
+  bool lengths_decide = false;
   /// Names, or in text column numbers, separated by commas: lon,lat or x,y,z, then the columns to read.
-  /// Empty: the names in the file decide, or else the first columns are read: of three x y z where these have
-  /// one length or cannot be lon lat, else lon lat.
+  /// Empty: the names in the file decide, or else the first columns are read.
   std::string columns;
   /// Of NetCDF: read only slice `part` of `parts` equal slices of the nodes, which must not be a grid.
   std::size_t part = 0, parts = 1;

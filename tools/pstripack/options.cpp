@@ -213,6 +213,7 @@ void add_input(CLI::App& app, Input& input) {
 }
 
 void add_reading(CLI::App& app, files::ReadOptions& read) {
+  read.lengths_decide = true;
   using namespace files;
   add_choice(app, "--from", read.container,
              {{"text", Container::text},

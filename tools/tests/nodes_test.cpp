@@ -120,9 +120,9 @@ TEST(text, latitudes_beyond_the_pole_are_refused_with_line_and_remedy) {
 }
 
 TEST(text, coordinates_say_how_many_columns_count) {
-  const std::string rows = "10 200 300\n30 40 500\n";
-  EXPECT_EQ(read_bytes(rows).points[0], (Point{10, 200, 300}));
-  EXPECT_EQ(read_bytes("10 20 300\n", with(Container::text, Coordinates::lonlat)).points[0],
+  const std::string rows = "10 20 300\n30 40 500\n";
+  EXPECT_EQ(read_bytes(rows).points[0], (Point{10, 20, 300}));
+  EXPECT_EQ(read_bytes(rows, with(Container::text, Coordinates::lonlat)).points[0],
             point_sets::from_degrees(10, 20));
   expect_error("10 20\n", "--coordinates xyz needs 3", with(Container::text, Coordinates::xyz));
 }
@@ -130,17 +130,20 @@ TEST(text, coordinates_say_how_many_columns_count) {
 // Stations with the pressure: vectors whose lengths happen to differ by less than a hundredth.
 TEST(text, three_columns_without_names_are_vectors_only_if_they_have_one_length_or_cannot_be_angles) {
   ReadOptions options;
-  options.with_columns = true;
+  options.with_columns = options.lengths_decide = true;
   const Nodes stations =
       read_bytes("8.5 47.3 1013.2\n6.1 46.2 1012.9\n9.8 46.8 1011.5\n7.4 46.9 1013\n", options);
   EXPECT_EQ(stations.points[0], point_sets::from_degrees(8.5, 47.3));
   EXPECT_EQ(stations.columns.at(0).numbers, (std::vector<double>{1013.2, 1012.9, 1011.5, 1013}));
-  EXPECT_EQ(read_bytes("0.6 0.8 0\n0 0.599999 0.8\n").kind, "text, x y z");
-  EXPECT_EQ(read_bytes("3822 0 5097\n0 -3824 5096\n").kind, "text, x y z");
+  for (const char* const rows : {"0.6 0.8 0\n0 0.5999999 0.8\n0 0 0\n", "3822 0 5097\n0 -3824 5096\n"})
+    EXPECT_EQ(read_bytes(rows, options).kind, "text, x y z") << rows;
   for (const char* const rows : {"0.577 0.577 0.577\n1 0 0\n", "8.5 47.3 1013.2\n6.1 46.2 1013.1\n"}) {
-    expect_error(rows, "may be x y z, of lengths");
-    EXPECT_EQ(read_bytes(rows, kDegrees).given.lat.size(), 2u);
-    EXPECT_EQ(read_bytes(rows, with(Container::text, Coordinates::xyz)).kind, "text, x y z");
+    expect_error(rows, "may be x y z, of lengths", options);
+    ReadOptions said = options;
+    said.units = Units::degrees;
+    EXPECT_EQ(read_bytes(rows, said).given.lat.size(), 2u);
+    said.coordinates = Coordinates::xyz;
+    EXPECT_EQ(read_bytes(rows, said).kind, "text, x y z");
   }
 }
 
