@@ -22,12 +22,13 @@ Faces clipped_to_hull(const Faces& cells, const Mesh& mesh);
 /// NoMesh if a side is a half turn.
 Faces clipped_to_region(const Faces& cells, const Region& region);
 
-/// The parts of whole cells in each of the polygons, of which every part belongs to one. Sides of polygons
-/// are straight on the map, approximated by arcs of great circles within 0.0001 degrees. A part with a hole
-/// is cut in two; where polygons surround the sphere, cells are also cut at the meridians 0 and 180. Corners
-/// of cells are as exact as doubles; which side of a border of two cells a corner of a polygon lies on is
-/// decided in both alike. So the areas of the parts of a polygon add up to its own. Throws NoMesh if the
-/// rings of a polygon cross.
+/// The parts of whole cells in each of the polygons, of which every part belongs to one, named by the columns
+/// `polygon` and, if any has one, `polygon_name`; their areas are known. Sides of polygons are straight on
+/// the map, approximated by arcs that change the area of a polygon by a millionth or less, unless it is
+/// narrower than 0.3 % of its length. A part with a hole is cut in two; so are parts at the longitude
+/// 180, and at meridians or the equator if no cap of 75 degrees around its middle holds the polygon. Corners
+/// are right to 1e-15 radians; parts narrower than 1e-14 are left out. Throws NoMesh, naming the feature and
+/// two sides, if the rings of a polygon cross.
 Faces clipped_to_polygons(const Faces& cells, const std::vector<MapRegion>& polygons);
 
 }  // namespace files

@@ -32,7 +32,8 @@ std::vector<std::string> names_of(const Columns& columns) {
 /// Collects points and properties from one feature after another.
 class Features {
  public:
-  Features(Nodes& nodes, const ReadOptions& options) : nodes_(nodes), options_(options) {}
+  Features(Nodes& nodes, const ReadOptions& options, std::size_t bytes)
+      : nodes_(nodes), options_(options), most_values_(16 * bytes + 1000000) {}
 
   /// Throws if the feature has no geometry, unless missing ones are kept, or one other than Point or
   /// MultiPoint.
@@ -56,6 +57,7 @@ class Features {
 
   /// All columns, with a value for each node.
   Columns take_columns() {
+    expect_few_values();
     for (Column& c : columns_)
       if (c.is_text())
         c.texts.resize(nodes_.lines.size());
@@ -80,6 +82,13 @@ class Features {
     if (!cells_.insert(properties["node"].get<double>()).second) return;
     add_point({properties["lon"], properties["lat"]});
     for (const auto& [name, value] : properties.items()) set(name, nodes_.lines.size() - 1, value);
+  }
+
+  /// Each column has a value for each node, so features with names of their own would take any memory.
+  void expect_few_values() const {
+    if (columns_.size() * nodes_.lines.size() > most_values_)
+      fail(fmt::format("the properties have {} different names, the last '{}': give all features the same",
+                       columns_.size(), excerpt(columns_.back().name)));
   }
 
   [[noreturn]] void fail(const std::string& what) const {
@@ -118,7 +127,10 @@ class Features {
 
   void set(const std::string& name, std::size_t i, const json& value) {
     auto c = std::find_if(columns_.begin(), columns_.end(), [&](const Column& k) { return k.name == name; });
-    if (c == columns_.end()) c = columns_.insert(c, Column{name});
+    if (c == columns_.end()) {
+      c = columns_.insert(c, Column{name});
+      expect_few_values();
+    }
     if (value.is_null()) return;
     if (value.is_number() && !c->is_text()) {
       c->numbers.resize(i, kMissing);
@@ -129,13 +141,17 @@ class Features {
         c->texts.push_back(std::isnan(v) ? "" : fmt::format("{}", v));
     c->texts.resize(i);
     c->texts.push_back(value.is_string() ? value.get<std::string>() : value.dump());
+    bytes_ += c->texts.back().size();  // each point of a MultiPoint has its own
+    if (bytes_ > most_values_)
+      fail(fmt::format("the property '{}' has a long text for many points: leave it out", excerpt(name)));
   }
 
   Nodes& nodes_;
   const ReadOptions& options_;
   std::set<double> cells_;  ///< numbers of their nodes
   Columns columns_;
-  std::size_t count_ = 0;
+  std::size_t count_ = 0, bytes_ = 0;
+  const std::size_t most_values_;  ///< of all columns together
 };
 
 /// `may_miss`: some may be NaN.
@@ -221,7 +237,7 @@ Nodes read_geojson(const std::string& file, const ReadOptions& options, const st
   nodes.file = file;
   nodes.kind = "GeoJSON, lon lat in degrees";
   nodes.lines_are = "feature";
-  Features features(nodes, options);
+  Features features(nodes, options, contents.size());
   const json root = read_features(contents, file, "points", {"Point", "MultiPoint"},
                                   [&](const json& feature, std::size_t) { features.add(feature); });
   const std::size_t n = nodes.given.lon.size();

@@ -122,6 +122,7 @@ std::vector<Region> LimitedArea::boxes() const {
 LimitedArea box_area(std::string name, const Region& box) {
   return {std::move(name),
           {{1,
+            "",
             {{{box.west, box.south},
               {box.east, box.south},
               {box.east, box.north},

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "base/parallel_for.h"
+#include "files/cut_rings.h"
 #include "files/measures.h"
 #include "geometry/predicates.h"
 #include "point_sets.h"
@@ -139,54 +140,19 @@ Box box_of(const MapRing& ring) {
   return {w->x(), e->x(), s->lat, n->lat};
 }
 
-/// Adds the parts of `ring` on the inner side of a straight line.
-///
-///          exit   entry  exit   entry     The chains of inner corners end at exits. From each exit, the
-///       ----<------>------<------>----    border of its part goes along the line, interior on the left, to
-///           |      |      |      |        an entry. Interior and exterior alternate along the line; so the
-///           '------'      '------'        k-th exit goes to the k-th entry, counted in this direction, and
-///       (here the interior is above)      this remains a pairing where rounding exchanges two of them.
-///
-/// inside(corner); cross(p, q): where the line from p to q crosses; along(corner): grows in that direction.
+/// Adds the parts of `ring` on the inner side of a straight line: cut_rings().
 template <class Inside, class Cross, class Along>
 void cut(const MapRing& ring, const Inside& inside, const Cross& cross, const Along& along,
          std::vector<MapRing>& parts) {
-  const std::size_t n = ring.size();
-  const auto at = [&](std::size_t i) -> const MapCorner& { return ring[i % n]; };
-  std::size_t start = 0;
-  while (start < n && (inside(at(start)) || !inside(at(start + 1)))) ++start;
-  if (start == n) {
-    if (n > 0 && inside(ring[0])) parts.push_back(ring);
-    return;
-  }
-  std::vector<MapRing> chains;
-  for (std::size_t i = start; i < start + n; ++i) {
-    const bool from = inside(at(i)), to = inside(at(i + 1));
-    if (from) chains.back().push_back(at(i));
-    if (!from && to) chains.push_back({cross(at(i), at(i + 1))});
-    if (from && !to) {
-      chains.back().push_back(cross(at(i), at(i + 1)));
-      chains.back().back().straight = true;
-      chains.back().back().seam = false;
-    }
-  }
-  std::vector<std::size_t> exits(chains.size()), entries(chains.size()), next(chains.size());
-  std::iota(exits.begin(), exits.end(), std::size_t{0});
-  entries = exits;
-  std::sort(exits.begin(), exits.end(),
-            [&](std::size_t a, std::size_t b) { return along(chains[a].back()) < along(chains[b].back()); });
-  std::sort(entries.begin(), entries.end(), [&](std::size_t a, std::size_t b) {
-    return along(chains[a].front()) < along(chains[b].front());
-  });
-  for (std::size_t k = 0; k < chains.size(); ++k) next[exits[k]] = entries[k];
-  for (std::size_t first = 0; first < chains.size(); ++first) {
-    MapRing part;
-    for (std::size_t k = first; !chains[k].empty(); k = next[k]) {
-      part.insert(part.end(), chains[k].begin(), chains[k].end());
-      chains[k].clear();
-    }
-    part = without_repeats(part);
-    if (part.size() >= 3 && !box_of(part).is_line()) parts.push_back(part);
+  const auto crossing = [&](const MapCorner& p, const MapCorner& q, bool leaves) {
+    MapCorner c = cross(p, q);
+    c.straight = c.straight || leaves;
+    c.seam = c.seam && !leaves;
+    return c;
+  };
+  for (const MapRing& part : cut_rings(std::vector<MapRing>{ring}, inside, crossing, along)) {
+    MapRing kept = without_repeats(part);
+    if (kept.size() >= 3 && !box_of(kept).is_line()) parts.push_back(std::move(kept));
   }
 }
 

@@ -635,7 +635,8 @@ Columns measures_of(const Faces& faces, const std::vector<Point>& nodes) {
 void add_columns(Faces& faces, const std::vector<Point>& nodes, const Columns& of_mesh,
                  std::vector<double>&& degrees) {
   const bool are_cells = !faces.centres.empty();
-  Columns measures = measures_of(faces, nodes);
+  Columns measures = faces.columns_of_parts;
+  for (Column& column : measures_of(faces, nodes)) measures.push_back(std::move(column));
   Columns& of_nodes = are_cells ? faces.columns_of_faces : faces.columns_of_points;
   of_nodes = of_mesh;
   Column degree = whole_numbers("degree", "number of neighbours of the node", std::move(degrees));

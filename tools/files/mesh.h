@@ -98,6 +98,7 @@ struct Faces {
       area;  ///< of triangles and whole cells, in steradians, from their nodes; NaN: not known
   LonLat given_points, given_centres;  ///< their longitudes and latitudes, if the input had them
   Columns columns_of_points, columns_of_faces;
+  Columns columns_of_parts;  ///< of faces cut at polygons: add_columns() makes them columns of the faces
   Share share_of_points, share_of_faces;
   bool with_edges = false;  ///< UGRID files also get the edges; all faces must be here
 

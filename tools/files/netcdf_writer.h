@@ -1,6 +1,7 @@
 #pragma once
 // Writing NetCDF files.
 
+#include <fmt/format.h>
 #include <netcdf.h>
 
 #include <algorithm>
@@ -19,6 +20,7 @@
 #include "base/parallel_for.h"
 #include "files/mesh.h"
 #include "files/output_file.h"
+#include "text_file.h"
 
 namespace files {
 
@@ -78,7 +80,10 @@ class NetcdfWriter {
     for (const Column& c : all) {
       const std::string name = free_name(c.name);
       std::vector<int> shape = dimensions;
-      if (c.is_text()) shape.push_back(dimension((name + "_length").c_str(), longest(c)));
+      if (c.is_text()) {
+        expect_short_texts(c);
+        shape.push_back(dimension((name + "_length").c_str(), longest(c)));
+      }
       const int id = variable(name.c_str(), c.is_text() ? NC_CHAR : c.whole ? NC_INT : NC_DOUBLE, shape);
       const bool renamed = name != c.name && c.long_name.empty();
       if (renamed || !c.long_name.empty()) attribute(id, "long_name", renamed ? c.name : c.long_name);
@@ -201,6 +206,18 @@ class NetcdfWriter {
       slab.count.push_back(here);
     }
     return slab;
+  }
+  /// NetCDF gives all texts of a column the length of the longest.
+  void expect_short_texts(const Column& c) const {
+    std::size_t all = 0;
+    for (const std::string& text : c.texts) all += text.size();
+    const double bytes = static_cast<double>(longest(c)) * static_cast<double>(c.size());
+    if (bytes > 64e6 && bytes > 16 * static_cast<double>(all))
+      throw std::runtime_error(
+          fmt::format("{}: column '{}' has a text of {} bytes, as long as which all in a NetCDF file are, "
+                      "{:.0f} MB: leave the "
+                      "column out by --columns, or write CSV or GeoJSON",
+                      name_, point_sets::excerpt(c.name), longest(c), bytes / 1e6));
   }
   static std::size_t longest(const Column& texts) {
     std::size_t most = 1;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <numeric>
 #include <optional>
@@ -47,6 +48,7 @@ std::string_view first_word(std::string_view text) {
 
 /// Throws if the contents are of a format that another program converts, and says how.
 void refuse_foreign(const std::string& file, const std::string& contents) {
+  constexpr auto kToCsv = "libreoffice --headless --convert-to csv {in}";
   constexpr auto kToGeojson = "ogr2ogr -f GeoJSON -t_srs EPSG:4326 {out}.geojson {in}";
   struct Foreign {
     std::string_view begin, inside;  ///< its first bytes, and a name inside an archive
@@ -59,7 +61,9 @@ void refuse_foreign(const std::string& file, const std::string& contents) {
       {"<?xml", "<kml", "KML", kToGeojson},
       {"<kml", "", "KML", kToGeojson},
       {"PK\x03\x04", ".kml", "KMZ", kToGeojson},
-      {"PK\x03\x04", "xl/workbook", "a spreadsheet", "libreoffice --headless --convert-to csv {in}"},
+      {"PK\x03\x04", "xl/workbook", "a spreadsheet", kToCsv},
+      {"PK\x03\x04", "opendocument.spreadsheet", "a spreadsheet", kToCsv},
+      {"\xD0\xCF\x11\xE0", "W\0o\0r\0k\0b\0o\0o\0k"sv, "a spreadsheet", kToCsv},
       {"PAR1", "", "Parquet",
        "python3 -c \"import pandas; pandas.read_parquet('{in}').to_csv('{out}.csv', index=False)\""},
       {"GRIB", "", "GRIB", "cdo -f nc copy {in} {out}.nc"}};
@@ -113,6 +117,7 @@ void set_angles(Nodes& nodes, LonLat given, Units units, const std::string& to_e
 /// Which columns of a text are read.
 struct Choice {
   std::vector<std::size_t> place;    ///< lon and lat, or x, y, z
+  bool is_guess = false;             ///< x y z without names: may be lon lat value
   std::vector<std::size_t> columns;  ///< the other ones to read
   std::optional<std::size_t> value;
   bool is_lonlat() const { return place.size() == 2; }
@@ -195,6 +200,7 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
             layout.columns == 1 ? "" : "s",
             layout.columns == 1 ? "" : ": say --coordinates lonlat or xyz, or choose --columns 1,2"));
       columns = is_third ? 2 : layout.columns - (has_value ? 1 : 0);
+      choice.is_guess = options.lengths_decide && !has_value && columns == 3;
     }
     if (candidates.size() < columns)
       fail(fmt::format("has {} columns; --coordinates {} needs {}{}", candidates.size(),
@@ -230,14 +236,45 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
 }
 
 /// The unit of angles in the header; `otherwise` if the header has none.
-Units units_of(const TextLayout& layout, const Choice& choice, Units otherwise) {
+Units units_of(const TextLayout& layout, const Choice& choice, Units otherwise, const std::string& file) {
   if (layout.names.empty()) return otherwise;
-  const std::string& unit = layout.units[choice.place[0]];
-  const std::string& name = layout.names[choice.place[0]];
-  if (unit.rfind("deg", 0) == 0 || unit == "\xC2\xB0" || name.find("_deg") != name.npos)
-    return Units::degrees;
-  if (unit.rfind("rad", 0) == 0 || name.find("_rad") != name.npos) return Units::radians;
-  return otherwise;
+  const auto of_column = [&](std::size_t c) {
+    const std::string &unit = layout.units[c], &name = layout.names[c];
+    if (unit.rfind("deg", 0) == 0 || unit == "\xC2\xB0" || name.find("_deg") != name.npos)
+      return Units::degrees;
+    if (unit.rfind("rad", 0) == 0 || name.find("_rad") != name.npos) return Units::radians;
+    return Units::said_or_unmistakable;
+  };
+  const Units lon = of_column(choice.place[0]), lat = of_column(choice.place[1]);
+  if (lon == Units::said_or_unmistakable) return lat == Units::said_or_unmistakable ? otherwise : lat;
+  if (lat != Units::said_or_unmistakable && lat != lon)
+    throw std::runtime_error(fmt::format(
+        "{}:{}: one of longitude and latitude is in degrees, the other in radians: convert one of them", file,
+        std::max<std::size_t>(1, layout.header_line)));
+  return lon;
+}
+
+/// True if three columns without names are lon lat and a value: not vectors of one length, and within the
+/// range of longitudes and latitudes. Throws if they may be vectors that are rounded.
+bool is_lonlat_value(const Nodes& nodes, const TextRows& rows, Units units) {
+  double shortest = INFINITY, longest = 0, most_lon = 0, most_lat = 0;
+  const auto& x = rows.numbers;
+  for (std::size_t i = 0; i < x[0].size(); ++i) {
+    if (std::isnan(x[0][i]) || std::isnan(x[1][i]) || std::isnan(x[2][i])) continue;
+    const double length = std::hypot(x[0][i], x[1][i], x[2][i]);
+    if (length == 0) continue;  // refused later
+    shortest = std::min(shortest, length), longest = std::max(longest, length);
+    most_lon = std::max(most_lon, std::fabs(x[0][i])), most_lat = std::max(most_lat, std::fabs(x[1][i]));
+  }
+  if (longest <= (1 + kSameLength) * shortest || most_lon > 360 || most_lat > 90) return false;
+  const bool may_be_radians = most_lon <= 4 * kRightAngle && most_lat <= kRightAngle;
+  if (units == Units::said_or_unmistakable && (may_be_radians || longest <= 1.001 * shortest))
+    throw std::runtime_error(
+        fmt::format("{}: three columns without names may be x y z, of lengths {:.7g} to {:.7g}, or lon lat "
+                    "and a value: say "
+                    "--coordinates xyz, or --columns 1,2,3",
+                    nodes.file, shortest, longest));
+  return true;
 }
 
 Column column_of(TextRows& rows, const TextLayout& layout, std::size_t c) {
@@ -250,7 +287,7 @@ Column column_of(TextRows& rows, const TextLayout& layout, std::size_t c) {
 void read_text(Nodes& nodes, std::string_view text, const ReadOptions& options) {
   nodes.kind = "text";
   const TextLayout layout = layout_of(text, nodes.file);
-  const Choice choice = choose(layout, options, nodes.file);
+  Choice choice = choose(layout, options, nodes.file);
   std::vector<Role> roles(layout.columns, Role::skipped);
   if (options.with_columns)
     for (const std::size_t c : choice.columns) roles[c] = Role::carried;
@@ -258,6 +295,10 @@ void read_text(Nodes& nodes, std::string_view text, const ReadOptions& options) 
   if (choice.value) roles[*choice.value] = Role::value;
   TextRows rows = rows_of(text, nodes.file, layout, roles);
   nodes.lines = std::move(rows.lines);
+  if (choice.is_guess && is_lonlat_value(nodes, rows, options.units)) {
+    choice.place.pop_back();
+    choice.columns.push_back(2);
+  }
   if (choice.value) {
     for (const std::size_t c : choice.place)
       for (std::size_t i = 0; !options.keep_missing && i < nodes.lines.size(); ++i)
@@ -276,13 +317,14 @@ void read_text(Nodes& nodes, std::string_view text, const ReadOptions& options) 
     }
     for (const std::size_t c : choice.columns)
       if (c != choice.value) nodes.columns.push_back(column_of(rows, layout, c));
+    make_names_differ(nodes.columns, {});
   }
   const auto axis = [&](std::size_t k) -> std::vector<double>& { return rows.numbers[choice.place[k]]; };
   if (choice.is_lonlat()) {
     LonLat given;
     given.lon = std::move(axis(0));
     given.lat = std::move(axis(1));
-    set_angles(nodes, std::move(given), units_of(layout, choice, options.units),
+    set_angles(nodes, std::move(given), units_of(layout, choice, options.units, nodes.file),
                fmt::format("{},{}", choice.place[1] + 1, choice.place[0] + 1));
     return;
   }
@@ -439,6 +481,7 @@ bool is_note(const std::string& name) {
 
 bool is_netcdf(const std::string& file) {
   char begin[4] = "";
+  if (!std::filesystem::is_regular_file(file)) return false;  // what is read from a pipe is gone
   std::ifstream(file, std::ios::binary).read(begin, sizeof begin);
   return has_magic_of_netcdf({begin, sizeof begin});
 }

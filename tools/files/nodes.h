@@ -17,6 +17,9 @@ enum class Container { detected, text, netcdf, geojson, raw };
 enum class Coordinates { detected, xyz, lonlat };
 enum class Units { said_or_unmistakable, degrees, radians };
 
+/// Lengths of vectors that differ by at most this part of them are equal: text has six digits or more.
+constexpr double kSameLength = 1e-6;
+
 struct ReadOptions {
   Container container = Container::detected;  ///< raw doubles are not detected
   Coordinates coordinates = Coordinates::detected;
@@ -31,6 +34,9 @@ struct ReadOptions {
   std::string variable;         ///< its name, or in text its number; empty: the column after the coordinates
   std::vector<std::string> usual_variables =
       {};  ///< without a name, the first of these that a NetCDF file has
+  /// Three columns of text without names are x y z only if these have one length or cannot be lon lat; else
+  /// they are lon lat value. Without this they are x y z.
+  bool lengths_decide = false;
   /// Names, or in text column numbers, separated by commas: lon,lat or x,y,z, then the columns to read.
   /// Empty: the names in the file decide, or else the first columns are read.
   std::string columns;
@@ -85,7 +91,7 @@ struct Nodes {
 /// file, line or index, and remedy.
 Nodes read(const std::string& file, const ReadOptions& options = {});
 
-/// True if the first bytes are those of NetCDF's own formats or of HDF5.
+/// True if it is a file, no pipe, whose first bytes are those of NetCDF's own formats or of HDF5.
 bool is_netcdf(const std::string& file);
 
 // Below: one reader per container.

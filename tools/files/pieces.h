@@ -31,7 +31,8 @@ class Pieces {
  public:
   explicit Pieces(const Faces& cells) : cells_(cells) { faces_.begin.push_back(0); }
 
-  void add(const MapRing& ring, std::size_t cell) {
+  /// `area`: of the part, if it is known.
+  void add(const MapRing& ring, std::size_t cell, double area = std::numeric_limits<double>::quiet_NaN()) {
     std::vector<std::int32_t> corners;
     for (const MapCorner& c : ring) {
       const auto [known, is_new] =
@@ -45,9 +46,7 @@ class Pieces {
     }
     while (corners.size() > 1 && corners.back() == corners.front()) corners.pop_back();
     if (corners.size() < 3) return;
-    faces_.area.push_back(is_whole(ring, cell) && !cells_.area.empty()
-                              ? cells_.area[cell]
-                              : std::numeric_limits<double>::quiet_NaN());
+    faces_.area.push_back(is_whole(ring, cell) && !cells_.area.empty() ? cells_.area[cell] : area);
     faces_.corner.insert(faces_.corner.end(), corners.begin(), corners.end());
     faces_.begin.push_back(faces_.corner.size());
     faces_.centres.push_back(cells_.centres[cell]);

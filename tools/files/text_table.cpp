@@ -48,7 +48,16 @@ std::string lower(std::string_view text) {
   return result;
 }
 
+/// Errors of spreadsheets. A line that begins with one is a row, no comment.
+constexpr std::string_view kErrors[] = {"#N/A", "#VALUE!", "#REF!", "#DIV/0!", "#NUM!", "#NAME?", "#NULL!"};
+std::string_view error_at(std::string_view text) {
+  for (const std::string_view error : kErrors)
+    if (text.substr(0, error.size()) == error) return error;
+  return {};
+}
+
 bool is_missing(std::string_view word) {
+  if (!word.empty() && error_at(word) == word) return true;
   if (word.size() > 4) return false;
   const std::string l = lower(word);
   return l.empty() || l == "nan" || l == "na" || l == "n/a" || l == "null";
@@ -145,7 +154,7 @@ class Cells {
       leave(p);
       return true;
     }
-    const char* p = at_;
+    const char* p = at_ + (separator_ == ' ' ? length_of_error() : 0);
     while (p != end_ && (separator_ == ' ' ? !ends_word(*p) : *p != separator_)) ++p;
     word = {at_, static_cast<std::size_t>(p - at_)};
     while (!word.empty() && is_space(word.back())) word.remove_suffix(1);
@@ -154,7 +163,8 @@ class Cells {
   }
 
  private:
-  bool begins_cell() const { return at_ != end_ && !begins_comment(*at_); }
+  std::size_t length_of_error() const { return error_at({at_, static_cast<std::size_t>(end_ - at_)}).size(); }
+  bool begins_cell() const { return at_ != end_ && (!begins_comment(*at_) || length_of_error() > 0); }
   void skip_blanks() {
     while (at_ != end_ && is_blank(*at_)) ++at_;
   }
@@ -354,12 +364,14 @@ class Reader {
   bool is_row(std::string_view& line, Piece& piece) const {
     std::size_t begin = 0;
     while (begin < line.size() && is_space(line[begin])) ++begin;
-    if (begin == line.size() || begins_comment(line[begin])) return false;
+    if (begin == line.size()) return false;
+    if (begins_comment(line[begin]) && error_at(line.substr(begin)).empty()) return false;
     if (line[begin] == '>') {
       ++piece.segments;
       return false;
     }
-    if (layout_.header_line == 0 && layout_.separator != ' ') line = without_comment(line);
+    if (layout_.header_line == 0 && layout_.separator != ' ' && error_at(line.substr(begin)).empty())
+      line = without_comment(line);
     return true;
   }
 
@@ -441,11 +453,12 @@ TextLayout layout_of(std::string_view text, const std::string& file) {
   while (!has_row && lines.next(line)) {
     const std::string_view content = trimmed(line);
     if (content.empty() || content[0] == '>') continue;
-    if (begins_comment(content[0])) {
+    if (begins_comment(content[0]) && error_at(content).empty()) {
       comment = content.substr(1);
       continue;
     }
-    const std::string_view plain = layout.header_line > 0 ? content : trimmed(without_comment(content));
+    const bool is_whole = layout.header_line > 0 || !error_at(content).empty();
+    const std::string_view plain = is_whole ? content : trimmed(without_comment(content));
     if (layout.header_line == 0) layout.separator = separator_of(plain);
     const std::vector<std::string> cells = split(plain, layout.separator);
     if (is_header(cells)) {

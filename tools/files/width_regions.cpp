@@ -58,6 +58,8 @@ class Reader {
     if (added.polygons.empty()) fail("a MultiPolygon without polygons");
     const auto properties = feature.find("properties");
     added.properties = properties != feature.end() && properties->is_object() ? *properties : Json::object();
+    const std::string name = name_of(feature, added.properties);
+    for (MapRegion& polygon : added.polygons) polygon.name = name;
   }
 
   [[noreturn]] void fail(const std::string& what) const {
@@ -74,8 +76,17 @@ class Reader {
     return std::isfinite(value) ? value : std::nan("");
   }
 
+  static std::string name_of(const Json& feature, const Json& properties) {
+    const auto text = [](const Json& value) {
+      return value.is_string() ? value.get<std::string>() : value.is_number() ? value.dump() : "";
+    };
+    for (const char* const name : {"name", "Name", "NAME", "id", "Id", "ID"})
+      if (properties.contains(name) && !text(properties[name]).empty()) return text(properties[name]);
+    return feature.contains("id") ? text(feature["id"]) : "";
+  }
+
   MapRegion polygon_of(const Json& polygon) const {
-    MapRegion region{number_, {}};
+    MapRegion region{number_};
     if (!polygon.is_array() || polygon.empty()) fail("a polygon without rings");
     for (const Json& ring : polygon) {
       if (!ring.is_array() || ring.size() < 4) fail("a ring with fewer than four corners");

@@ -10,9 +10,10 @@ namespace files {
 
 struct MapRegion {
   std::size_t feature = 0;  ///< its number in the file, from 1
+  std::string name = {};    ///< its property `name` or `id`, or its member `id`; empty: it has none
   /// Closed lines of longitudes and latitudes, in degrees, straight on the map (RFC 7946): the outlines and
   /// the holes of its polygons. A place is inside if a meridian from it crosses an odd number of sides.
-  std::vector<std::vector<std::pair<double, double>>> rings;
+  std::vector<std::vector<std::pair<double, double>>> rings = {};
 
   /// Pairs of increasing longitudes, within -180 to 540, between which the parallel is inside.
   std::vector<std::pair<double, double>> inside(double lat) const;

@@ -209,10 +209,12 @@ Columns table_of(const std::vector<Point>& points, const NodeValues& values) {
   return with_angles(columns, angles_of(points, values.given, true));
 }
 
-/// Quotes the text if RFC 4180 requires it.
-std::string csv_text(const std::string& text) {
-  if (text.find_first_of(",;\"\n\r\t#") == text.npos &&
-      text == text.substr(0, text.find_last_not_of(' ') + 1) && text.find(' ') != 0)
+/// Quotes the text if RFC 4180 requires it. Line ends become blanks: text_table.h reads line by line.
+std::string csv_text(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  if (text.find_first_of(",;\"\t#") == text.npos && text == text.substr(0, text.find_last_not_of(' ') + 1) &&
+      text.find(' ') != 0)
     return text;
   std::string quoted = "\"";
   for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);

@@ -148,7 +148,7 @@ files::Nodes read_points(const Options& options) {
   files::ReadOptions read;
   read.units = options.input.read.units;
   read.keep_missing = options.input.read.keep_missing;
-  read.with_columns = true;
+  read.with_columns = read.lengths_decide = true;
   files::Nodes places = read_places(options.points, read);
   if (!places.given.empty()) return places;
   for (const auto& [name, component] : {std::pair("x", &files::Point::x), std::pair("y", &files::Point::y),

@@ -20,6 +20,7 @@ namespace {
 using files::Column;
 using files::Nodes;
 
+constexpr double kRightAngle = 1.5707963267948966;
 constexpr auto kNode = "node", kLine = "line", kFeature = "feature";  // columns
 
 void check_directions(const Nodes& nodes) {
@@ -29,7 +30,17 @@ void check_directions(const Nodes& nodes) {
           fmt::format("{}: {} is zero or not finite: remove it", nodes.file, nodes.place(i)));
 }
 
-/// If three columns are vectors whose lengths differ by more than 1 %, most likely they are not x y z.
+/// Marks of missing values, as -999, are no longitudes.
+void check_longitudes(const Nodes& nodes) {
+  for (std::size_t i = 0; i < nodes.given.lon.size(); ++i)
+    if (std::fabs(nodes.given.lon[i]) > (nodes.given.degrees ? 720 : 8 * kRightAngle))
+      throw std::runtime_error(fmt::format(
+          "{}: {}: longitude {} is more than two turns: if it means a missing place, remove the row",
+          nodes.file, nodes.place(i), nodes.given.lon[i]));
+}
+
+/// If three columns are vectors whose lengths differ by more than 1 %, most likely they are not x y z; nor if
+/// all lie at the equator but are not on one sphere: they are metres of a map projection.
 void check_lengths(const Nodes& nodes) {
   std::size_t shortest = 0, longest = 0;
   std::vector<double> square(nodes.points.size());
@@ -44,9 +55,17 @@ void check_lengths(const Nodes& nodes) {
         "{}: x y z of lengths {:.4g} ({}) to {:.4g} ({}) are not on one sphere; say --coordinates lonlat if "
         "the first two columns are lon lat, or --coordinates xyz if the vectors are directions",
         nodes.file, low, nodes.place(shortest), high, nodes.place(longest)));
+  if (high > (1 + files::kSameLength) * low &&
+      std::all_of(nodes.points.begin(), nodes.points.end(),
+                  [&](const files::Point& p) { return std::fabs(p.z) < 0.02 * low; }))
+    throw std::runtime_error(
+        nodes.file +
+        ": x y z of nodes at the equator, but not on one sphere: if they are metres of a map "
+        "projection, convert them to longitudes and latitudes, say by gdaltransform or "
+        "to_crs(4326); say --coordinates xyz if the vectors are directions");
 }
 
-constexpr double kDegree = 1.5707963267948966 / 90;
+constexpr double kDegree = kRightAngle / 90;
 
 std::string suffixes() {
   std::string text;
@@ -194,6 +213,7 @@ void add_input(CLI::App& app, Input& input) {
 }
 
 void add_reading(CLI::App& app, files::ReadOptions& read) {
+  read.lengths_decide = true;
   using namespace files;
   add_choice(app, "--from", read.container,
              {{"text", Container::text},
@@ -287,6 +307,7 @@ Nodes read_places(const std::string& file, const files::ReadOptions& options) {
         },
         "place");
   check_directions(nodes);
+  check_longitudes(nodes);
   if (options.coordinates != files::Coordinates::xyz) check_lengths(nodes);
   return nodes;
 }

@@ -152,6 +152,17 @@ void expect_column(const files::Nodes& nodes, const std::string& name) {
                                        name, files::did_you_mean(name, names), files::listed(names)));
 }
 
+/// CLI::Range lets nan pass.
+CLI::Validator number_from(double low, double high) {
+  const auto check = [=](const std::string& text) {
+    const double value = number_of(text);
+    return value >= low && value <= high
+               ? std::string()
+               : fmt::format("'{}': expected a number from {} to {}", text, low, high);
+  };
+  return CLI::Validator(check, "");
+}
+
 void plot(Options& options) {
   const bool globe = is_globe(options);
   const pictures::Kind kind = globe ? pictures::Kind::svg : kind_of(options);
@@ -247,7 +258,7 @@ void add_plot(CLI::App& app, Command& chosen) {
       ->type_name("VIEW");
   sub->add_option("--radius", options->radius, "zoom: show this many degrees around the centre [all nodes]")
       ->type_name("DEGREES")
-      ->check(CLI::Range(1e-6, 180.0).description(""));
+      ->check(number_from(1e-6, 180));
   sub->add_option("--region", options->region,
                   "show the map of WEST,EAST,SOUTH,NORTH; 170,-170 crosses the dateline")
       ->type_name("DEGREES");
@@ -272,7 +283,7 @@ void add_plot(CLI::App& app, Command& chosen) {
   sub->add_option("--title", options->title, "[file and counts]")->type_name("TEXT");
   sub->add_option("--width", options->width, fmt::format("width of the picture [{}]", kWidth))
       ->type_name("PIXELS")
-      ->check(CLI::Range(100.0, 20000.0).description(""));
+      ->check(number_from(100, 20000));
   sub->footer(R"(  pstripack plot mesh.nc -o mesh.svg
   pstripack plot nodes.txt --view orthographic:10,45 --radius 5 -o zoom.png --width 1600
   pstripack plot nodes.txt --what cells --colour area -o cells.svg

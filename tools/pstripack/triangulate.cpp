@@ -85,6 +85,14 @@ void tell_huge_cell(const Options& options, const files::Faces& faces, const fil
       mesh.has_boundary() ? " or --clip-to-hull" : ""));
 }
 
+void clip(files::Faces& faces, const std::string& file) {
+  try {
+    faces = clipped_to_polygons(faces, files::read_polygons(file));
+  } catch (const files::NoMesh& e) {
+    throw std::runtime_error(file + ": " + e.what());
+  }
+}
+
 void voronoi(Options& options) {
   if (!options.polygons.empty() && (!options.region.empty() || options.clip_to_hull))
     throw CLI::ValidationError("--clip-to", "cuts whole cells: leave out --region and --clip-to-hull");
@@ -97,7 +105,7 @@ void voronoi(Options& options) {
       say(options.input.file + ": the nodes surround the sphere: --clip-to-hull cuts nothing");
     if (options.clip_to_hull) faces = clipped_to_hull(faces, mesh);
     if (!options.region.empty()) faces = clipped_to_region(faces, region_of(options.region));
-    if (!options.polygons.empty()) faces = clipped_to_polygons(faces, files::read_polygons(options.polygons));
+    if (!options.polygons.empty()) clip(faces, options.polygons);
     if (faces.size() == 0 && !options.polygons.empty())
       throw files::NoMesh("the polygons of " + options.polygons + " are narrower than rounding");
     if (faces.size() == 0)

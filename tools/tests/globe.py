@@ -333,6 +333,18 @@ def check_in_browser(program):
     width, height, content = pixels(base64.b64decode(browser.js("globe.picture().toDataURL()").split(",")[1]))
     assert width == 900 and height > 600 and len(set(content)) > 100
 
+    # Keys work before a click. Nodes 5 cm apart: their cells do not overlap, and the middle one is under the middle.
+    side = 0.05 / 6371e3 * 180 / math.pi
+    (FOLDER / "plots.csv").write_text("lon,lat\n" + "".join(
+        f"{8.55 + i * side * 1.5!r},{47.3 + j * side!r}\n" for j in (-1, 0, 1) for i in (-1, 0, 1)))
+    run("plot", "plots.csv", "--what", "cells", "-o", "plots.html")
+    browser.open("plots.html")
+    browser.key("Home")
+    assert browser.text("node").startswith("node 5; "), browser.text("node")
+    middle = browser.js("globe.cell(4)")
+    centre = [sum(corner[k] for corner in middle) / len(middle) for k in range(3)]
+    assert all(math.dist(corner, centre) < 0.05 / 6371e3 for corner in middle), middle
+
     # Python counts from 0, and no address names node 0.
     (FOLDER / "zero.html").write_text(Page("cells.html").text.replace('"first":1,', '"first":0,'), encoding="utf-8")
     browser.open("zero.html")

@@ -477,51 +477,149 @@ LonLats with_bays(double lon, double lat, double radius) {
   return ring;
 }
 
-// Areas of the arcs by another formula: as seen from their first corner.
-double area_of_arcs(const LonLats& ring) {
-  double area = 0;
-  const auto at = [&](std::size_t k) { return point_sets::from_degrees(ring[k].first, ring[k].second); };
-  for (std::size_t k = 1; k + 2 < ring.size(); ++k) {
-    const Point a = at(0), b = at(k), c = at(k + 1);
-    const double ab = angle_between(a, b), bc = angle_between(b, c), ca = angle_between(c, a),
-                 s = (ab + bc + ca) / 2;
-    const double lhuilier =
-        std::tan(s / 2) * std::tan((s - ab) / 2) * std::tan((s - bc) / 2) * std::tan((s - ca) / 2);
-    area += std::copysign(4 * std::atan(std::sqrt(std::max(0.0, lhuilier))), volume(a, b, c));
+/// The area within straight lines of the map: the integral of sin(lat) - sin(lat of the first corner) over
+/// the longitude, by Simpson's rule.
+double area_within(const LonLats& ring) {
+  constexpr int kSteps = 200;
+  long double sum = 0;
+  const long double degree = kDegree, of_first = ring[0].second / degree;
+  for (std::size_t i = 0; i + 1 < ring.size(); ++i) {
+    const long double from = ring[i].second / degree, to = ring[i + 1].second / degree;
+    for (int k = 0; k <= kSteps; ++k) {
+      const long double lat = from + (to - from) * k / kSteps;
+      sum -= (k == 0 || k == kSteps ? 1
+              : k % 2 == 1          ? 4
+                                    : 2) /
+             (3.0L * kSteps) * (static_cast<long double>(ring[i + 1].first) - ring[i].first) / degree * 2 *
+             std::cos((lat + of_first) / 2) * std::sin((lat - of_first) / 2);
+    }
   }
+  return std::fabs(static_cast<double>(sum));
+}
+double area_within(const MapRegion& region) {
+  double area = 2 * area_within(region.rings[0]);
+  for (const LonLats& ring : region.rings) area -= area_within(ring);
   return area;
 }
 
+MapRegion region(std::vector<LonLats> rings) { return {1, "", std::move(rings)}; }
+LonLats closed(LonLats ring) {
+  ring.push_back(ring[0]);
+  return ring;
+}
+
 TEST(cells, fill_polygons_once) {
-  const double pi = 4 * std::atan(1.0);
-  const MapRegion bays{1, {with_bays(178, 30, 12), with_bays(174, 31, 2), with_bays(181, 29, 1)}};
-  const double of_bays =
-      area_of_arcs(bays.rings[0]) - area_of_arcs(bays.rings[1]) - area_of_arcs(bays.rings[2]);
+  const MapRegion bays = region({with_bays(178, 30, 12), with_bays(174, 31, 2), with_bays(181, 29, 1)});
   LonLats clockwise = box(0, 90, 0, 90);
   std::reverse(clockwise.begin(), clockwise.end());
-  const std::pair<MapRegion, double> polygons[] = {
-      {bays, of_bays},
-      {{1, {clockwise}}, pi / 2},
-      {{1, {box(-90, 90, -90, 90)}}, 2 * pi},
-      {{1, {box(-180, 180, -90, 90)}}, 4 * pi},
-      {{1, {box(0, 360, -90, 90), bays.rings[0]}}, 4 * pi - area_of_arcs(bays.rings[0])},
-      {{1, {with_bays(10, 20, 1e-3)}}, area_of_arcs(with_bays(10, 20, 1e-3))}};
+  const MapRegion polygons[] = {
+      bays, region({clockwise}), region({box(-90, 90, -90, 90)}), region({box(-180, 180, -90, 90)}),
+      region({box(0, 360, -90, 90), bays.rings[0]}), region({box(-180, 180, -90, -60)}),
+      region({with_bays(10, 20, 1e-3)}),
+      // Sides that no great circle is near to.
+      region({closed({{0, 0}, {60, 45}, {0, 45}})}), region({closed({{0, 60}, {90, 60}, {45, 90}})}),
+      region({closed({{10, 45}, {11, 75}, {9, 75}})}),
+      region({closed({{170, -80}, {300, 70}, {190, 85}, {200, 0}}), box(205, 206, 30, 31)}),
+      region({closed({{8, 47}, {8.3, 47.1}, {8.2, 47.3}, {8.1, 47.15}})})};
   for (const char* const family :
        {"random", "latlon", "icosahedral", "healpix", "cap", "hemisphere", "strip"})
     for (const std::size_t n : {3u, 20u, 300u}) {
-      const Mesh mesh = triangulate(point_sets::make(family, n));
-      const Faces all = cells_of(mesh);
-      for (const auto& [polygon, area] : polygons) {
+      const Faces all = cells_of(triangulate(point_sets::make(family, n)));
+      for (const MapRegion& polygon : polygons) {
         const Faces cells = clipped_to_polygons(all, {polygon});
-        const std::vector<double> of_parts = areas(cells);
-        EXPECT_NEAR(sum(of_parts) / area, 1, area < 1e-6 ? 1e-7 : 1e-11) << family << ' ' << n << ' ' << area;
-        EXPECT_GT(*std::min_element(of_parts.begin(), of_parts.end()), -1e-15) << family << ' ' << n;
+        EXPECT_NEAR(sum(areas(cells)) / area_within(polygon), 1, 1e-6)
+            << family << ' ' << n << ' ' << polygon.rings[0][0].first << ' ' << polygon.rings[0][0].second;
+        EXPECT_GT(*std::min_element(cells.area.begin(), cells.area.end()), 0) << family << ' ' << n;
       }
-      const Faces two = clipped_to_polygons(all, {bays, polygons[1].first});
-      EXPECT_NEAR(sum(areas(two)), of_bays + pi / 2, 1e-11) << family << ' ' << n;
+      const Faces two = clipped_to_polygons(all, {bays, polygons[1]});
+      EXPECT_NEAR(sum(areas(two)), area_within(bays) + area_within(polygons[1]), 1e-6) << family << ' ' << n;
     }
+}
+
+// The part of a cell around each place, and no other.
+TEST(cells, of_polygons_are_those_of_the_nearest_nodes) {
+  Points around_hole;
+  for (const auto& [lon, lat] : {Place(0, 50.5), {0, 49.5}, {2, 53}, {-120, 0}, {120, 0}, {0, -80}})
+    around_hole.push_back(point_sets::from_degrees(lon, lat));
+  point_sets::Random random(5);
+  for (const auto& [points, polygon] :
+       {std::pair(around_hole, region({box(-2, 2, 49, 51), box(-0.5, 0.7, 49.3, 49.9)})),
+        {around_hole, region({box(-2, 2, 49, 51), box(-0.5, 0.7, 49.3, 49.6), box(-1.5, 1.7, 49.61, 49.7),
+                              box(1, 1.5, 50.1, 50.9)})},
+        {point_sets::make("random", 200), region({with_bays(178, 30, 12), with_bays(174, 31, 2)})}}) {
+    const Faces cells = clipped_to_polygons(cells_of(triangulate(points)), {polygon});
+    const auto maps = maps_of(cells);
+    for (int k = 0; k < 2000; ++k) {
+      const double lon = polygon.rings[0][0].first + random.uniform(-13, 13) * (points.size() > 10 ? 2 : 0.4),
+                   lat =
+                       polygon.rings[0][0].second + random.uniform(-13, 13) * (points.size() > 10 ? 1 : 0.2);
+      bool is_inside = false;
+      for (const LonLats& ring : polygon.rings) {
+        MapRing corners;
+        for (const auto& [x, y] : ring) corners.push_back({{}, x, y});
+        is_inside = is_inside != holds(corners, lon, lat);
+      }
+      const Point p = point_sets::from_degrees(lon, lat);
+      const auto nearest =
+          std::max_element(points.begin(), points.end(),
+                           [&](const Point& a, const Point& b) { return dot(a, p) < dot(b, p); });
+      const auto found = faces_at(maps, wrapped(lon), lat);
+      ASSERT_EQ(found.size(), is_inside ? 1u : 0u) << lon << ' ' << lat;
+      if (is_inside) {
+        EXPECT_EQ(cells.node_of(found[0]), static_cast<std::size_t>(nearest - points.begin()));
+      }
+    }
+  }
+}
+
+// Plots of centimetres to kilometres, and nodes as near as rounding lets them be.
+TEST(cells, of_polygons_have_the_areas_of_their_plots_at_every_scale) {
+  for (const double metres : {0.05, 0.2, 10.0, 1e3}) {
+    const double lat = 47.3, step = metres / 111195, wide = step / point_sets::cos_degrees(lat);
+    Points points;
+    for (int k = 0; k < 9; ++k)
+      points.push_back(point_sets::from_degrees(8.55 + (k % 3 - 1) * wide, lat + (k / 3 - 1) * step));
+    const Faces cells = clipped_to_polygons(
+        cells_of(triangulate(points)),
+        {region({box(8.55 - 1.5 * wide, 8.55 + 1.5 * wide, lat - 1.5 * step, lat + 1.5 * step)})});
+    ASSERT_EQ(cells.size(), 9u);
+    for (const double area : cells.area)
+      EXPECT_NEAR(area * std::pow(kDegree / step, 2), 1, 1e-9 + 1e-6 / metres + metres / 1e6) << metres;
+  }
+  const Mesh two =
+      triangulate({point_sets::from_degrees(10, 47), point_sets::from_degrees(10.0000000000001, 47),
+                   point_sets::from_degrees(100, 0), point_sets::from_degrees(-100, 10)});
+  const Faces halves = clipped_to_polygons(cells_of(two), {region({box(0, 20, 37, 57)})});
+  ASSERT_EQ(halves.size(), 2u);
+  const Faces all = clipped_to_region(cells_of(two), {0, 20, 37, 57});
+  for (std::size_t f = 0; f < 2; ++f) EXPECT_NEAR(halves.area[f] / areas(all)[f], 1, 1e-4);
+}
+
+TEST(cells, of_a_polygon_whose_rings_cross_are_refused_by_its_sides) {
   const Faces cells = cells_of(triangulate(point_sets::make("random", 100)));
-  EXPECT_THROW(clipped_to_polygons(cells, {{1, {{{0, 0}, {30, 30}, {30, 0}, {0, 20}, {0, 0}}}}}), NoMesh);
+  const auto refusal = [&](const std::vector<LonLats>& rings) -> std::string {
+    try {
+      clipped_to_polygons(cells, {region(rings)});
+    } catch (const NoMesh& e) {
+      return e.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(refusal({closed({{0, 10}, {10, 40}, {20, 10}, {-5, 30}, {25, 30}})}),
+            "feature 1: side 1 from 0,10 to 10,40 crosses or lies on side 4 from -5,30 to 25,30: mend the "
+            "polygon, say by ogr2ogr -makevalid");
+  EXPECT_EQ(refusal({box(0, 10, 0, 10), box(5, 15, 5, 6)}),
+            "feature 1: side 2 of ring 1 from 10,0 to 10,10 crosses or lies on side 3 of ring 2 from 15,6 "
+            "to 5,6: mend the polygon, say by ogr2ogr -makevalid");
+  for (const std::vector<LonLats>& rings : std::vector<std::vector<LonLats>>{
+           {closed({{0, 0}, {1, 1}, {2, 2}, {2, 0}, {1, 1}, {0, 2}})},  // crosses at a corner
+           {box(0, 10, 0, 10), box(20, 30, 0, 10)},                     // a hole beside the polygon
+           {box(0, 10, 0, 10), box(2, 8, 2, 8), box(3, 7, 3, 7)},       // a hole in a hole
+           {box(0, 10, 0, 10), box(2, 8, 2, 8), box(2, 8, 2, 8)}})      // the same hole twice
+    EXPECT_NE(refusal(rings).find("mend the polygon"), std::string::npos) << refusal(rings);
+  // Rings may touch in a corner.
+  EXPECT_EQ(refusal({box(0, 10, 0, 10), closed({{0, 5}, {3, 4}, {3, 6}}), closed({{3, 4}, {6, 4}, {6, 3}})}),
+            "accepted");
 }
 
 // Sides along the borders of cells: whole cells, and no slivers.
@@ -529,8 +627,12 @@ TEST(cells, of_a_polygon_along_their_borders_are_whole) {
   Points points;
   for (double lon = -29.5; lon < 30; ++lon)
     for (double lat = -9.5; lat < 10; ++lat) points.push_back(point_sets::from_degrees(lon, lat));
-  const Faces cells = clipped_to_polygons(cells_of(triangulate(points)), {{1, {box(-10, 10, -4.5, 0)}}});
+  const Faces cells = clipped_to_polygons(cells_of(triangulate(points)), {region({box(-10, 10, -4.5, 0)})});
   EXPECT_EQ(cells.size(), 20u * 5);
+  std::size_t alone = 0;
+  for (const auto& [from, to] : sides_without_partner(maps_of(cells)))
+    alone += std::fabs(from.first) < 10 - 1e-9 && from.second > -4.499 && from.second < -1e-9;
+  EXPECT_EQ(alone, 0u);
 }
 
 TEST(cells, of_nodes_on_one_circle_are_lunes_with_corners_in_the_middle_of_their_sides) {

@@ -87,7 +87,9 @@ TEST(text, radians_nearest_to_a_right_angle_mean_it) {
   const Points expected{{0, 0, 1},  {0, 0, -1}, {-1, 0, 0}, {-std::cos(0.5), 0, std::sin(0.5)},
                         {0, -1, 0}, {1, 0, 0},  {1, 0, 0},  {0, 1, 0}};
   EXPECT_EQ(read_bytes(rows, kRadians).points, expected);
-  EXPECT_EQ(read_bytes("lon,lat [rad]\n1,2\n").kind, "text, lon lat in degrees");
+  expect_error("lon,lat [rad]\n1,2\n", "latitude 2 is beyond the pole");
+  expect_error("lon [deg],lat [rad]\n10,0.5\n",
+               ":1: one of longitude and latitude is in degrees, the other in radians: convert one of them");
   EXPECT_EQ(read_bytes("lon [rad],lat [rad]\n1,-1.5707963267948966\n").points, (Points{{0, 0, -1}}));
   EXPECT_EQ(
       read_bytes(bytes_of({2, std::acos(0.0)}), with(Container::raw, Coordinates::lonlat, Units::radians))
@@ -123,6 +125,26 @@ TEST(text, coordinates_say_how_many_columns_count) {
   EXPECT_EQ(read_bytes(rows, with(Container::text, Coordinates::lonlat)).points[0],
             point_sets::from_degrees(10, 20));
   expect_error("10 20\n", "--coordinates xyz needs 3", with(Container::text, Coordinates::xyz));
+}
+
+// Stations with the pressure: vectors whose lengths happen to differ by less than a hundredth.
+TEST(text, three_columns_without_names_are_vectors_only_if_they_have_one_length_or_cannot_be_angles) {
+  ReadOptions options;
+  options.with_columns = options.lengths_decide = true;
+  const Nodes stations =
+      read_bytes("8.5 47.3 1013.2\n6.1 46.2 1012.9\n9.8 46.8 1011.5\n7.4 46.9 1013\n", options);
+  EXPECT_EQ(stations.points[0], point_sets::from_degrees(8.5, 47.3));
+  EXPECT_EQ(stations.columns.at(0).numbers, (std::vector<double>{1013.2, 1012.9, 1011.5, 1013}));
+  for (const char* const rows : {"0.6 0.8 0\n0 0.5999999 0.8\n0 0 0\n", "3822 0 5097\n0 -3824 5096\n"})
+    EXPECT_EQ(read_bytes(rows, options).kind, "text, x y z") << rows;
+  for (const char* const rows : {"0.577 0.577 0.577\n1 0 0\n", "8.5 47.3 1013.2\n6.1 46.2 1013.1\n"}) {
+    expect_error(rows, "may be x y z, of lengths", options);
+    ReadOptions said = options;
+    said.units = Units::degrees;
+    EXPECT_EQ(read_bytes(rows, said).given.lat.size(), 2u);
+    said.coordinates = Coordinates::xyz;
+    EXPECT_EQ(read_bytes(rows, said).kind, "text, x y z");
+  }
 }
 
 TEST(text, a_number_that_is_not_finite_is_refused_with_its_line) {
@@ -216,6 +238,22 @@ TEST(tables, are_separated_by_commas_semicolons_tabs_or_blanks) {
   EXPECT_EQ(read_bytes("90 \t0\n0\t\t90\n").points.size(), 2u);
   const Nodes quoted = read_bytes("lon,lat,place\n90,0,\"5 km S of \"\"A\"\", #2\"\r\n", with_columns());
   EXPECT_EQ(quoted.columns.at(0).texts.at(0), "5 km S of \"A\", #2");
+}
+
+TEST(tables, begin_rows_with_errors_of_spreadsheets) {
+  for (const std::string rows : {"lon,lat,v\n#N/A,40,1\n100,50,#N/A\n", "#N/A 40 1\n100 50 #DIV/0!\n",
+                                 "#VALUE!;40;1\n100;50;#N/A\n"}) {
+    ReadOptions options = with_columns("1,2,3");
+    expect_error(rows, "' is not a finite number: remove the row, or say --skip-missing", options);
+    options.keep_missing = true;
+    const Nodes nodes = read_bytes(rows, options);
+    ASSERT_EQ(nodes.points.size(), 2u) << rows;
+    EXPECT_TRUE(std::isnan(nodes.points[0].x) && std::isnan(nodes.columns.at(0).numbers.at(1))) << rows;
+  }
+}
+
+TEST(tables, keep_columns_of_one_name) {
+  EXPECT_EQ(names_of(read_bytes("lon,lat,v,v\n100,2,3,4\n", with_columns()).columns), "v v_given");
 }
 
 TEST(tables, have_comments_and_segments) {

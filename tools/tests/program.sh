@@ -73,6 +73,10 @@ pipes)
   grep -q '"triangles": 196,' info.json || fail "$(cat info.json)"
   octahedron | "$PSTRIPACK" triangulate - -o mesh.vtu 2> err
   grep -q '^pstripack: 6 nodes (text, x y z), 8 triangles; reading .* s; triangulating .* s; writing .* s$' err || fail "$(cat err)"
+  # Pipes by their names, as <(zcat stations.csv.gz).
+  mkfifo pipe
+  octahedron > pipe & "$PSTRIPACK" -q triangulate pipe -o - --to off | cmp mesh.off -
+  wait
   ;;
 
 standard_streams)
@@ -163,8 +167,13 @@ bad_nodes)
   printf '0 0\n1 0\n0 1\n' > angles.txt
   refuses 1 "may be degrees or radians: say --units degrees or --units radians" triangulate angles.txt -o mesh.off
   "$PSTRIPACK" -q triangulate angles.txt --units degrees -o mesh.off
-  printf '10 20 300\n30 40 -5\n50 60 70\n' > depth.txt
+  printf '10 20 300\n30 400 -5\n50 60 70\n' > depth.txt
   refuses 1 "are not on one sphere; say --coordinates lonlat" triangulate depth.txt -o depth.off
+  printf 'x,y,z\n465000,5247000,400\n467000,5243000,520\n461000,5249000,610\n' > utm.csv
+  refuses 1 "x y z of nodes at the equator, but not on one sphere: if they are metres of a map projection, convert" triangulate utm.csv -o utm.off
+  printf '10 20\n-999 40\n50 60\n' > gap.txt
+  refuses 1 "node 2 (line 2): longitude -999 is more than two turns: if it means a missing place, remove the row" triangulate gap.txt -o gap.off
+  printf '10 20 300\n30 40 -5\n50 60 70\n' > depth.txt
   "$PSTRIPACK" -q triangulate depth.txt --coordinates lonlat -o mesh.off
   "$PSTRIPACK" -q triangulate depth.txt --coordinates xyz -o mesh.off
   printf '1 0 0\n0 1 0\n0 0 0\n' > zero.txt
@@ -398,6 +407,8 @@ pictures)
   refuses 2 "--region: it is a map of longitude and latitude: leave out --radius" plot nodes.txt -o c.svg --region 0,10,20,30 --radius 5
   refuses 2 "--region: it is a map of longitude and latitude: leave out" plot nodes.txt -o c.svg --region 0,10,20,30 --view orthographic
   refuses 2 "--region: '0,10,30,20': expected WEST,EAST,SOUTH,NORTH" plot nodes.txt -o c.svg --region 0,10,30,20
+  refuses 2 "--radius: 'nan': expected a number from 1e-06 to 180" plot nodes.txt -o c.svg --radius nan
+  refuses 2 "--width: 'nan': expected a number from 100 to 20000" plot nodes.txt -o c.svg --width nan
   refuses 2 "--range: '5,2': expected LOW,HIGH, the lower first" plot nodes.txt -o c.svg --colour area --range 5,2
   refuses 2 "--range: a colour bar is needed: --colour area or a column of numbers" plot nodes.txt -o c.svg --range 2,5
   refuses 2 "'virdis' is none of viridis, magma, cividis, coolwarm, grey; did you mean viridis?" plot nodes.txt -o c.svg --palette virdis
@@ -997,6 +1008,15 @@ bad_tables)
     refused 1 "1: no columns named lon and lat, or x, y and z: name them by --columns; the header has c1, c2, "
   grep -q ", c29, c30 and 20 more$" err || fail "$(cat err)"
   refuses 2 "--duplicates" triangulate table.txt --duplicates last -o mesh.off
+  # What would take any memory.
+  awk 'BEGIN { print "lon,lat,note"; for (k = 0; k < 4000; ++k) printf "%d,%d,a%d\n", k % 360, k / 50, k
+    printf "7.5,80.5,"; for (k = 0; k < 20000; ++k) printf "x"; print "" }' > notes.csv
+  refuses 1 "notes.nc: column 'note' has a text of 20000 bytes, as long as which all in a NetCDF file are, 80 MB: leave the column out by --columns" convert notes.csv -o notes.nc
+  awk 'BEGIN { printf "{\"type\":\"FeatureCollection\",\"features\":["
+    for (k = 0; k < 4000; ++k) printf "%s{\"type\":\"Feature\",\"properties\":{\"p%d\":1},\"geometry\":{\"type\":\"Point\",\"coordinates\":[%d,%d]}}", k ? "," : "", k, k % 360, k / 50
+    print "]}" }' > own.geojson
+  refuses 1 "own.geojson: feature 2" info own.geojson
+  grep -q "the properties have .* different names, the last .p2.*: give all features the same" err || fail "$(cat err)"
   ;;
 
 maps)
@@ -1025,6 +1045,12 @@ maps)
   printf '{"type":"MultiPolygon","coordinates":[[%s,%s],[%s]]}' "$(ring 10 30 -10 10)" "$(ring 15 20 -5 5)" "$(ring 40 41 3 4)" > two.json
   "$PSTRIPACK" -q voronoi nodes.csv --coordinates xyz --clip-to two.json -o parts.geojson
   awk -F '"area_km2":' '/Feature"/ { sum += $2 } END { exit (sum / 4315587 - 1) ^ 2 > 1e-10 }' parts.geojson || fail "$(cat parts.geojson)"
+  printf '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{"NAME":"east\\nbank"},"geometry":{"type":"Polygon","coordinates":[%s]}},{"type":"Feature","id":7,"geometry":{"type":"Polygon","coordinates":[%s]}}]}' "$(ring 10 30 -10 10)" "$(ring 5 10 -10 10)" > named.json
+  "$PSTRIPACK" -q voronoi nodes.csv --coordinates xyz --clip-to named.json -o parts.csv
+  [ "$(awk -F, 'NR > 1 { print $(NF - 5) "," $(NF - 4) }' parts.csv | sort -u | tr '\n' ' ')" = "1,east bank 2,7 " ] || fail "$(cat parts.csv)"
+  "$PSTRIPACK" -q convert parts.csv -o again.csv
+  printf '{"type":"Polygon","coordinates":[[[0,10],[10,40],[20,10],[-5,30],[25,30],[0,10]]]}' > star.json
+  refuses 1 "star.json: feature 1: side 1 from 0,10 to 10,40 crosses or lies on side 4 from -5,30 to 25,30: mend the polygon" voronoi nodes.txt --clip-to star.json -o failed.csv
   refuses 2 "--clip-to: cuts whole cells: leave out --region and --clip-to-hull" voronoi nodes.txt --clip-to two.json --clip-to-hull -o failed.csv
   refuses 1 "missing.json: cannot be opened" voronoi nodes.txt --clip-to missing.json -o failed.csv
   # Links with their lengths, the hull, and triangles without long sides.
