@@ -100,6 +100,7 @@ void set_environment(const Setting& setting, const std::string& report) {
   for (const std::string& name : others) unsetenv(name.c_str());
   setenv("OMP_NUM_THREADS", std::to_string(setting.threads).c_str(), 1);
   setenv("PSTRIPACK_PARTITION", setting.partition.c_str(), 1);
+  setenv("PSTRIPACK_ORDER", setting.order.c_str(), 1);
   if (setting.ranks == 1) return;
   setenv("PSTRIPACK_POOL_MIN_NODES", "3", 1);
   setenv("PSTRIPACK_REPORT", report.c_str(), 1);
@@ -133,7 +134,8 @@ using Trmesh8 = void(const std::int32_t*, const double*, const double*, const do
                      std::int32_t*, std::int32_t*, std::int32_t*);
 
 void* load_trmesh(const std::string& abi) {
-  const std::string library = abi == "r8" ? "libstripack" PSTRIPACK_LIBRARY_SUFFIX : "libstripack_" + abi + PSTRIPACK_LIBRARY_SUFFIX;
+  const std::string library =
+      abi == "r8" ? "libstripack" PSTRIPACK_LIBRARY_SUFFIX : "libstripack_" + abi + PSTRIPACK_LIBRARY_SUFFIX;
   void* const handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
   void* const routine = handle != nullptr ? dlsym(handle, "trmesh_") : nullptr;
   if (routine == nullptr) throw std::runtime_error(dlerror());
