@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <limits>
@@ -54,6 +55,15 @@ TrmeshResult carry_out(const TrmeshCall& call, CallReport* report) noexcept {
   report.order_node = result.order_node;
   if (result.ier >= 0) report.nodes_in_mesh = result.ier > 0 ? result.other - 1 : call.n;
   for (std::int64_t k = 0; k < report.nodes_in_mesh; ++k) report.boundary_nodes += list[lend[k] - 1] < 0;
+  if (call.n >= 3 && result.ier != PSTRIPACK_TOO_MANY_NODES) {
+    report.shortest = std::numeric_limits<double>::infinity(), report.longest = 0;
+    for (std::int32_t k = 0; k < call.n; ++k) {
+      const Point p = call.nodes[static_cast<std::size_t>(k)];
+      const double length = std::hypot(p.x, p.y, p.z);
+      report.shortest = std::fmin(report.shortest, length);
+      report.longest = std::fmax(report.longest, length);
+    }
+  }
   if (result.order == OriginalOrder::inexact) {
     try {
       const auto nodes = static_cast<std::size_t>(report.nodes_in_mesh);
