@@ -105,3 +105,6 @@ foreach(library IN LISTS OpenMP_CXX_LIB_NAMES)
   endif()
 endforeach()
 string(APPEND PSTRIPACK_RUNTIME_LIBS " -lm")
+if(NOT APPLE)  # a static program: else gfortran's own library crashes at the end of any OpenMP program
+  string(APPEND PSTRIPACK_RUNTIME_LIBS " -Wl,-u,pthread_mutex_destroy")
+endif()

@@ -19,6 +19,8 @@ using pstripack::BlockHeader;
 using pstripack::Point;
 
 constexpr std::int64_t kMostNodes = pstripack::most_nodes<std::int32_t>();
+constexpr const char* kOrders[] = {"canonical", "original",       "bitwise",
+                                   "ngmath",    "bitwise-ngmath", "delaunay"};
 
 template <class Real>
 std::vector<Point> points_of(const std::vector<char>& body) {
@@ -91,7 +93,8 @@ std::optional<BlockHeader> CallReader::read_header() {
          fmt::format("version {}", BlockHeader::kVersion));
   expect(header.kind == BlockHeader::input || header.kind == BlockHeader::output, header.kind,
          "1 (input) or 2 (output)");
-  expect(header.routine == BlockHeader::trmesh, header.routine, "1 (TRMESH)");
+  expect(BlockHeader::trmesh <= header.routine && header.routine <= BlockHeader::delaunay, header.routine,
+         "1 to 6 (TRMESH in some order, pstripack_delaunay)");
   expect(header.real_bytes == 4 || header.real_bytes == 8, header.real_bytes, "reals of 4 or 8 bytes");
   expect(header.integer_bytes == 4, header.integer_bytes, "integers of 4 bytes");
   return header;
@@ -120,6 +123,8 @@ void CallReader::begin(const BlockHeader& header) {
   call.number = header.call;
   call.n = header.n;
   call.real_bytes = header.real_bytes;
+  call.run.abi = header.real_bytes == 4 ? "r4" : "r8";
+  call.run.order = kOrders[header.routine - BlockHeader::trmesh];
   const bool has_points = 3 <= header.n && header.n <= kMostNodes;
   const Bytes body =
       read_body(header, has_points ? 3 * static_cast<std::uint64_t>(header.n) * header.real_bytes : 0);

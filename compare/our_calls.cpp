@@ -111,6 +111,7 @@ void set_environment(const Setting& setting, const std::string& report) {
   for (const std::string& name : others) unsetenv(name.c_str());
   setenv("OMP_NUM_THREADS", std::to_string(setting.threads).c_str(), 1);
   setenv("PSTRIPACK_PARTITION", setting.partition.c_str(), 1);
+  setenv("PSTRIPACK_ORDER", setting.order.c_str(), 1);
   if (setting.ranks == 1) return;
   setenv("PSTRIPACK_POOL_MIN_NODES", "3", 1);
   setenv("PSTRIPACK_REPORT", report.c_str(), 1);

@@ -17,12 +17,16 @@ struct Lists {
 };
 constexpr std::int32_t kUntouched = -987654321;
 
-/// How TRMESH is called. No setting may change a byte of the result.
+/// How TRMESH is called. No setting but the order may change a byte of the result.
 struct Setting {
   std::string abi = "r8";  ///< ABI of the library: r8, r4, 8arg, i8
   int threads = 1;         ///< threads of each rank
   int ranks = 1;
   std::string partition = "bisection";
+  std::string order = "canonical";  ///< PSTRIPACK_ORDER; "delaunay": a recorded call of pstripack_delaunay
+
+  bool is_bitwise() const { return order == "bitwise" || order == "bitwise-ngmath"; }
+  bool is_canonical() const { return order == "canonical" || order == "delaunay"; }
 };
 
 /// "r8, 2 threads, 4 ranks, stripes"

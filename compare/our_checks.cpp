@@ -36,21 +36,26 @@ std::size_t nodes_before_duplicate(const std::vector<Point>& points, int ier) {
 }
 
 Checked check(const std::vector<Point>& points, int ier, const std::vector<std::int32_t>& list,
-              const std::vector<std::int32_t>& lptr, const std::vector<std::int32_t>& lend,
-              std::int32_t lnew) {
+              const std::vector<std::int32_t>& lptr, const std::vector<std::int32_t>& lend, std::int32_t lnew,
+              const Setting& how) {
   Checked result;
-  result.nodes = ier == 0 ? points.size() : nodes_before_duplicate(points, ier);
+  result.nodes = ier == 0           ? points.size()
+                 : how.is_bitwise() ? std::find(lend.begin(), lend.end(), kUntouched) - lend.begin()
+                                    : nodes_before_duplicate(points, ier);
   if (result.nodes < 3) {
     result.nodes = 0;
     return result;
   }
   const ListsView<std::int32_t> view{result.nodes, list.data(), lptr.data(), lend.data(), lnew};
   result.verdict = pstripack::check_lists(view);
+  result.is_mesh = result.verdict && pstripack::check_topology(view);
   if (!result.verdict) return result;
   result.triangles = pstripack::triangles_of(view);
   pstripack::make_canonical(result.triangles);
-  result.verdict =
-      pstripack::is_valid(points.data(), result.nodes, result.triangles.data(), result.triangles.size());
+  result.verdict = pstripack::is_valid(
+      points.data(), result.nodes, result.triangles.data(), result.triangles.size(),
+      how.order == "delaunay" ? pstripack::Lengths::directions : pstripack::Lengths::automatic,
+      how.is_canonical() ? pstripack::Ties::by_rule : pstripack::Ties::either_way);
   return result;
 }
 
@@ -74,7 +79,7 @@ std::vector<std::string> broken_promises(const std::vector<Point>& points, const
       if (run.ier < 0) {
         broken.push_back(fmt::format("IER = {}: {}", run.ier, pstripack_strerror(run.ier)));
       } else {
-        if (collinear)
+        if (collinear && !run.is_bitwise())
           broken.push_back("nodes 1, 2, 3 are on one great circle (exact sign), but IER is not -2");
         if (!std::all_of(points.begin(), points.begin() + checked.nodes, finite))
           broken.push_back("a coordinate is not finite, but IER is not -5");
@@ -94,13 +99,14 @@ std::vector<std::string> broken_promises(const std::vector<Point>& points, const
   }
   if (checked.nodes == 0) return broken;
 
-  if (!checked.verdict) {
+  if (run.is_bitwise() ? !checked.is_mesh : !checked.verdict) {
     broken.push_back("our mesh is wrong: " + checked.verdict.message);
     return broken;
   }
   const ListsView<std::int32_t> view{checked.nodes, lists.list.data(), lists.lptr.data(), lists.lend.data(),
                                      lists.lnew};
-  if (!pstripack::lists_are_canonical(view)) broken.push_back("our lists are not canonical");
+  if (run.is_canonical() && !pstripack::lists_are_canonical(view))
+    broken.push_back("our lists are not canonical");
   const auto untouched = [](std::int32_t entry) { return entry == kUntouched; };
   const std::size_t used = static_cast<std::size_t>(lists.lnew) - 1;
   if (!std::all_of(lists.list.begin() + used, lists.list.end(), untouched) ||

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <optional>
 #include <stdexcept>
@@ -95,6 +96,8 @@ class Replay {
   Judgement judge(Call& call) {
     if (call.points.empty()) return judge_refused(call);
     std::string before;
+    if (!call.has_returned && call.run.order == "delaunay")
+      return {Kind::not_compared, "no result on record", {}, {}};
     if (!call.has_returned) {
       if (auto lost = run_again(call)) return *std::move(lost);
       before = "no result on record, run again: ";
@@ -124,9 +127,7 @@ class Replay {
   /// Repeats a call that had not returned when the recording ended, and fills in its result. Returns a
   /// verdict only if the call does not return here either.
   std::optional<Judgement> run_again(Call& call) const {
-    Setting setting;
-    setting.abi = call.real_bytes == 4 ? "r4" : "r8";
-    call.run = run_ours(call.points, setting, 1, options_.timeout);
+    call.run = run_ours(call.points, Setting(call.run), 1, options_.timeout);
     if (!call.run.failure.empty())
       return Judgement{
           Kind::against_us, "no result on record, run again: PSTRIPACK " + call.run.failure, {}, {}};
@@ -137,25 +138,40 @@ class Replay {
   }
 
   Judgement judge_result(const Call& call) const {
+    const bool is_delaunay = call.run.order == "delaunay";
+    // A library of ours reads it at its first call, in a child.
+    if (!options_.library.empty()) setenv("PSTRIPACK_ORDER", is_delaunay ? "" : call.run.order.c_str(), 1);
     legacy_stripack::Triangulation theirs = other_->original.triangulate(call.points, options_.timeout);
-    if (options_.library.empty() && are_in_another_order(call) && difference_in_bytes(theirs, call).empty())
-      return {Kind::equal, "same bytes", {}, {}};
-    const std::string other_bytes = options_.library.empty() ? "" : difference_in_bytes(theirs, call);
+    // A library of ours gives the recorded bytes; in the original's order only in the same precision, and in
+    // a program's first call, since its searches draw random numbers whose seeds are kept. An original gives
+    // its own bytes only if it was compiled as ours follows it (docs/original-order.md).
+    const bool is_our_order = call.run.is_canonical();
+    const bool is_same_search =
+        call.number == 1 && static_cast<int>(call.real_bytes) == other_->original.library().abi().real_bytes;
+    const bool must_be_equal = !options_.library.empty() && !is_delaunay && (is_our_order || is_same_search);
+    const std::string other_bytes = must_be_equal || !is_our_order ? difference_in_bytes(theirs, call) : "";
+    if (!is_our_order && call.nodes > 0 && other_bytes.empty()) return {Kind::equal, "same bytes", {}, {}};
     Judgement judgement;
     judgement.result =
         compare(call.points, std::move(theirs), other_->original.epsilon(), {call.run}, options_.show);
     const Result& result = judgement.result;
     judgement.text = verdict_of(result);
-    if (!other_bytes.empty() || result.against_us()) {
+    if (must_be_equal && !other_bytes.empty()) {
       judgement.kind = Kind::against_us;
-      if (!other_bytes.empty()) judgement.text = other_bytes;
+      judgement.text = other_bytes;
+    } else if (result.against_us()) {
+      judgement.kind = Kind::against_us;
+    } else if (!result.ours_is_exact()) {
+      judgement.kind = Kind::explained;
+      judgement.text = fmt::format("a mesh of rounded tests, as {} asks for ({}); {}", call.run.order,
+                                   result.ours_checked.verdict.message, other_bytes);
     } else if (!result.original_returned()) {
       judgement.kind = Kind::no_original;
       judgement.text = fmt::format("the original {}; ours passes every exact check",
                                    describe(result.original, options_.timeout));
     } else if (result.equal()) {
       judgement.kind = Kind::equal;
-      if (!options_.library.empty()) judgement.text = "same bytes";
+      if (must_be_equal) judgement.text = "same bytes";
     } else {
       judgement.kind = Kind::explained;
     }
@@ -171,20 +187,11 @@ class Replay {
     return judgement;
   }
 
-  /// True if the lists were made under PSTRIPACK_ORDER: they are not canonical. If they equal the original's,
-  /// their mesh is not checked.
-  static bool are_in_another_order(const Call& call) {
-    const Lists& lists = call.run.lists;
-    if (call.nodes < 3) return false;
-    const pstripack::ListsView<std::int32_t> view{call.nodes, lists.list.data(), lists.lptr.data(),
-                                                  lists.lend.data(), lists.lnew};
-    return pstripack::check_topology(view) && !pstripack::lists_are_canonical(view);
-  }
-
   /// Compares with the recorded bytes, which every version of PSTRIPACK must return. Empty if equal.
   std::string difference_in_bytes(const legacy_stripack::Triangulation& theirs, const Call& call) const {
     if (theirs.outcome != legacy_stripack::Outcome::returned)
-      return "the library " + describe(theirs, options_.timeout);
+      return (options_.library.empty() ? "the original " : "the library ") +
+             describe(theirs, options_.timeout);
     if (theirs.ier != call.run.ier) return fmt::format("IER = {} recorded, now {}", call.run.ier, theirs.ier);
     Lists lists{theirs.list, theirs.lptr, theirs.lend, theirs.lnew};
     if (lists.lnew == 0) lists.lnew = call.run.lists.lnew;  // the 8-argument TRMESH does not return it

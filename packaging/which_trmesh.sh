@@ -4,19 +4,20 @@
 #   nm           symbols that the program defines; if it is stripped, only those that shared libraries may call
 #   the loader   symbols from shared libraries: as for ldd, the loader binds all symbols, reports each, and ends
 #   a text       "@(#)PSTRIPACK library ROUTINE" is in every file that contains this routine of ours, also after strip
+# Also named: module procedures TRMESH, which are another STRIPACK unless they call trmesh_; calls of our C interface.
 # Exit status: 0 all called routines are ours; 1 they are not, or it cannot be determined; 2 no answer.
 set -eu
 export LC_ALL=C
 subject=$1
 routines="TRMESH TRLIST CRLIST TRFIND GETNP"
-symbols='^(trmesh|trlist|crlist|trfind|getnp)_$'
+symbols='^((trmesh|trlist|crlist|trfind|getnp)_|__[a-z0-9_]+_MOD_trmesh)$'
 
 fail() {
   echo "pstripack-config --check: $*" >&2
   exit 2
 }
 [ "$(uname)" != Darwin ] || fail "works for Linux; on macOS see otool -L $subject"
-for tool in nm readelf; do
+for tool in nm objdump readelf; do
   command -v $tool > /dev/null || fail "needs $tool (Debian: apt-get install binutils)"
 done
 work=$(mktemp -d)
@@ -183,10 +184,25 @@ done | {
     esac
     printf '%-6s  %s\n' "$routine" "$answer"
   done
+  grep '^__' "$work/found" > "$work/modules" || true
+  while read -r symbol file; do
+    where=$file
+    [ "$file" != "$program" ] || where="in the program itself"
+    if [ -f "$file" ] && objdump -d --disassemble="$symbol" "$file" | grep -q '<trmesh_[@>]'; then
+      printf 'TRMESH  %s calls trmesh_: %s\n' "$symbol" "$where"
+    else
+      status=1
+      printf 'TRMESH  NOT OURS: %s: %s\n' "$symbol" "$where"
+    fi
+  done < "$work/modules"
   sort -u "$work/misled" | while read -r line; do
     echo "pstripack-config --check: the planar TRIPACK $line; LD_PRELOAD causes this: unset it" >&2
   done
-  if ! [ -s "$work/found" ]; then
+  c_calls=$({ nm -P "$program"; nm -DP "$program"; } 2> /dev/null | awk '$1 ~ /^pstripack_/ && $2 ~ /^[UT]$/ { print $1 }' |
+    sort -u | head -n 3 | tr '\n' ' ')
+  if ! [ -s "$work/found" ] && [ -n "$c_calls" ]; then
+    echo "ours: $name calls the C interface: $c_calls"
+  elif ! [ -s "$work/found" ]; then
     echo "pstripack-config --check: $name calls none of them; of what it loads while it runs, ask by its process" >&2
     status=1
   fi

@@ -25,7 +25,7 @@ link_from_others() {
   libdir=$(dirname "$(find $build/prefix -name libstripack.a)")
   for kind in "" --static; do
     # shellcheck disable=SC2046,SC2086  # lists of words on purpose
-    gcc $consumer/legacy.c -o $build/from_c $($build/prefix/bin/pstripack-config $kind --libs)
+    gcc $($build/prefix/bin/pstripack-config --cflags) $consumer/legacy.c -o $build/from_c $($build/prefix/bin/pstripack-config $kind --libs)
     # shellcheck disable=SC2046,SC2086
     gfortran -J $build $build/prefix/share/pstripack/stripack_module.F90 $consumer/legacy.F90 -o $build/from_gfortran \
       $(PKG_CONFIG_PATH=$libdir/pkgconfig pkg-config $kind --libs stripack)

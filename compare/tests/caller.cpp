@@ -1,5 +1,8 @@
 // A program that calls TRMESH, for the tests of record, replay and the check beside it:
-//   caller [r4] FAMILY N [CALLS [EXIT_CODE]]     calls TRMESH CALLS times for the same nodes; prints IER
+//   caller [r4] FAMILY N [CALLS [EXIT_CODE]]     calls TRMESH CALLS times for the same nodes; prints IER;
+//   FAMILY
+//                                                `all`: for each family
+//   caller delaunay FAMILY N                     calls pstripack_delaunay for these nodes in single precision
 //   caller crash                                 ends by a signal within the second call
 
 #include <cstdint>
@@ -14,9 +17,11 @@
 
 namespace {
 
+bool by_direction = false;
+
 std::int32_t trmesh(std::int32_t n, const double* x, const double* y, const double* z, std::int32_t* list,
                     std::int32_t* lptr, std::int32_t* lend, std::int32_t* lnew) {
-  return pstripack_trmesh(n, x, y, z, list, lptr, lend, lnew);
+  return (by_direction ? pstripack_delaunay : pstripack_trmesh)(n, x, y, z, list, lptr, lend, lnew);
 }
 std::int32_t trmesh(std::int32_t n, const float* x, const float* y, const float* z, std::int32_t* list,
                     std::int32_t* lptr, std::int32_t* lend, std::int32_t* lnew) {
@@ -63,9 +68,19 @@ int main(int argc, char** argv) {
     return pstripack_trmesh(100, x.data(), y.data(), z.data(), nullptr, nullptr, nullptr, nullptr);
   }
   const bool single_precision = words[0] == "r4";
-  if (single_precision) words.erase(words.begin());
-  const auto points = nodes(words.at(0), std::stoul(words.at(1)));
-  for (int calls = words.size() > 2 ? std::stoi(words[2]) : 1; calls > 0; --calls)
-    single_precision ? call<float>(points) : call<double>(points);
+  by_direction = words[0] == "delaunay";
+  if (single_precision || by_direction) words.erase(words.begin());
+  std::vector<std::string> families{words.at(0)};
+  if (words[0] == "all") {
+    families = point_sets::families();
+    families.insert(families.end(), point_sets::hard_families().begin(), point_sets::hard_families().end());
+  }
+  for (const std::string& family : families) {
+    auto points = nodes(family, std::stoul(words.at(1)));
+    if (by_direction)
+      for (auto& p : points) p = {float(p.x), float(p.y), float(p.z)};
+    for (int calls = words.size() > 2 ? std::stoi(words[2]) : 1; calls > 0; --calls)
+      single_precision ? call<float>(points) : call<double>(points);
+  }
   return words.size() > 3 ? std::stoi(words[3]) : 0;
 }

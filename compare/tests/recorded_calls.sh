@@ -137,6 +137,25 @@ original_order)
   expect 0 "$COMPARE" replay calls.rec
   [ "$(grep -c ': same bytes$' out)" -eq 3 ] || fail "not three of the same bytes"
   prints out "4 calls, 4 equal"
+  # No false alarm in any order, for any family, by our library, by the original, or by ours in place of the original.
+  without_alarm() {
+    # shellcheck disable=SC2086
+    PSTRIPACK_ORDER=$1 recorded "$1.rec" $2 all $3
+    shift 3
+    for way in "$@"; do
+      # shellcheck disable=SC2086
+      expect 0 "$COMPARE" replay $way --timeout 0.1 --show 1
+      ! grep -q "WE ARE WRONG" out || fail "a false alarm: $way"
+    done
+  }
+  for order in original bitwise ngmath bitwise-ngmath; do
+    without_alarm $order "" 40 "$order.rec --library $LIBRARY" "$order.rec --original $ORIGINAL"
+  done
+  says out "a mesh of rounded tests, as bitwise-ngmath asks for ("
+  without_alarm canonical delaunay 100 "canonical.rec --original $ORIGINAL" "canonical.rec --library $LIBRARY"
+  rm bitwise.rec
+  without_alarm bitwise r4 200 "bitwise.rec --library $LIBRARY_R4" "bitwise.rec --original $ORIGINAL_R4" \
+    "bitwise.rec --original $LIBRARY"
   # LIST(1), at byte 104 + 2400 + 104, is changed.
   PSTRIPACK_ORDER=bitwise-ngmath recorded other.rec random 100
   printf '\377' | dd of=other.rec bs=1 seek=2608 conv=notrunc 2> dd.err

@@ -8,10 +8,14 @@
                                     stripack_abi.F90 does not have itself
   src/cxx/capi/plain_calls.h        the C functions that these call
   src/fortran/symbols.txt           the symbols that each library exports
+  src/fortran/stripack.h.in         their prototypes for C and C++; CMake fills in the types of each library
+  src/fortran/stripack.pyf          the signatures of libstripack for f2py
+
+The codes and their meanings come from PSTRIPACK_CODES in src/cxx/capi/pstripack.h.
 
   make-api.py           writes them
-  make-api.py --check   fails if they are not what it would write, or if the routines in
-                        stripack_abi.F90 have other arguments than the table
+  make-api.py --check   fails if they are not what it would write, if the routines in stripack_abi.F90 have
+                        other arguments than the table, or if a code has another name or value elsewhere
   make-api.py --examples LIBRARY   prints the examples for a library as subroutines that compile
 
 Needs Python 3.11 and nothing else. The files are committed: building needs no Python.
@@ -238,6 +242,31 @@ def markdown_index(groups):
     return "\n\n".join(text + [INDEX_TAIL]) + "\n"
 
 
+# ---- the codes ----
+
+
+def codes():
+    """Of PSTRIPACK_CODES: value -> name and meaning."""
+    header = (ROOT / "src/cxx/capi/pstripack.h").read_text()
+    entries = re.findall(r'CODE\((PSTRIPACK_\w+), (-?\d+),[\s\\]*((?:"[^"]*"[\s\\\\]*)+)\)', header)
+    return {value: (name, "".join(re.findall(r'"([^"]*)"', text))) for name, value, text in entries}
+
+
+def wrong_codes(groups):
+    """Names with other values than in PSTRIPACK_CODES, and new codes of routines that are not there."""
+    values = {name: value for value, (name, _) in codes().items()}
+    found = []
+    for path, pattern in [("src/fortran/pstripack.f90", r"\b(pstripack_\w+) += (-\d+)"),
+                          ("src/fortran/pstripack_mpi.f90", r"\b(pstripack_\w+) += (-\d+)"),
+                          ("docs/ier.md", r"^\|(?P<value> -\d+) \| (PSTRIPACK_\w+)")]:
+        for match in re.finditer(pattern, (ROOT / path).read_text(), re.MULTILINE):
+            name, value = sorted(map(str.strip, match.groups()), reverse=True)
+            if values.get(name.upper().replace("_SCVT_", "_"), value) != value:
+                found.append(f"{path}: {name} is not {value} in PSTRIPACK_CODES of pstripack.h")
+    return found + [f"{r.name}: {value} is new, and not in PSTRIPACK_CODES of pstripack.h" for _, routines in groups
+                    for r in routines for value, when, _ in r.ier if "(new)" in when and value not in codes()]
+
+
 IER_HEAD = """# The codes of all routines
 
 Each routine's page also gives the state of the arrays. TRMESH and the C API, with remedies: [ier.md](../ier.md). *new*:
@@ -247,7 +276,11 @@ not in the original; one line on stderr says why."""
 def markdown_ier(groups):
     rows = [[f"[{r.name}]({r.name.lower()}.md)" + (f" {r.ier_name}" if r.ier_name != "IER" else ""), value, when]
             for _, routines in groups for r in routines for value, when, _ in r.ier if value != "0"]
-    return f"{IER_HEAD}\n\n{markdown_table(['routine', 'IER', 'when'], rows)}\n"
+    meanings = [[value, name, meaning] for value, (name, meaning) in codes().items() if int(value) < -2]
+    return "\n\n".join([IER_HEAD, "A code below -2 has one meaning everywhere, which `pstripack_strerror` returns:",
+                        markdown_table(["code", "name in C", "meaning"], meanings),
+                        "-1, -2 and numbers above 0 are the original's:",
+                        markdown_table(["routine", "IER", "when"], rows)]) + "\n"
 
 
 # ---- man pages ----
@@ -453,6 +486,95 @@ def plain_files(routines):
             "src/cxx/capi/plain_calls.h": PLAIN_CALLS.format("\n\n".join(map(declarations_in_c, plain)))}
 
 
+# ---- C, C++, f2py ----
+
+C_TYPES = {"integer": "stripack_integer", "real": "stripack_real", "logical": "stripack_logical", "character": "char"}
+C_HEADER = """/* STRIPACK's symbols in lib@name@, for C and C++. Made by docs/api/make-api.py.
+ *
+ * Each library has its own stripack.h, which `pkg-config --cflags @name@` finds. All arguments are addresses. Arrays
+ * begin with element 0; node numbers and slots count from 1. Arguments: man 3 trmesh etc., or docs/api. */
+#ifndef STRIPACK_H
+#define STRIPACK_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {{
+#endif
+
+typedef @c_real@ stripack_real;
+typedef @c_integer@ stripack_integer;
+typedef stripack_integer stripack_logical; /* 0: .FALSE., 1: .TRUE. */
+
+{}
+
+#ifdef __cplusplus
+}}
+#endif
+#endif
+"""
+
+
+def prototype(routine, library=None):
+    """Of the Fortran symbol; the length of a string is a hidden last argument."""
+    present = routine.names(library)
+    pairs = [(a, name) for a in routine.arguments for name in a.names if name in present]
+    arguments = [("const " if a.use == "in" else "") + f"{C_TYPES[a.type]}* {name.lower()}" for a, name in pairs]
+    arguments += [f"size_t length_of_{name.lower()}" for a, name in pairs if a.type == "character"]
+    result = C_TYPES[routine.result[0]] if routine.result else "void"
+    text = f"{result} {routine.name.lower()}_({', '.join(a.replace(' ', NO_BREAK) for a in arguments)});"
+    return textwrap.fill(text, 110, subsequent_indent="    ").replace(NO_BREAK, " ")
+
+
+def c_header(routines):
+    text = []
+    for r in routines:
+        comment = f"/* {r.purpose}{' LOUT may be NULL.' if r.lout else ''} */"
+        choice = (f"#if @eight@ /* 8 arguments */\n{prototype(r, 'stripack_8arg')}\n#else\n{prototype(r)}\n#endif"
+                  if r.absent else prototype(r))
+        text.append(f"{comment}\n{choice}")
+    return C_HEADER.format("\n\n".join(text))
+
+
+PYF_TYPES = {"integer": "integer", "real": "real*8", "logical": "logical", "character": "character*(*)"}
+PYF_USES = {"in": "in", "out": "out", "in/out": "in,out,copy", "unused": "hide"}
+
+
+def signature(routine):
+    """For f2py, which makes sizes of arrays that are read optional. Output, in arrays of the largest size, comes back as
+    a tuple."""
+    kind = routine.result and routine.result[0]
+    call = f"{routine.name.lower()}({', '.join(routine.names()).lower()})"
+    names = {name.lower() for a in routine.arguments if not a.shape for name in a.names}
+    known_afterwards = {name.lower(): {"NT": "2n-4", "NB": "n"}[name] for a in routine.arguments if a.use == "out"
+                        for name in a.names if name in ("NT", "NB")}
+    text = [f"{PYF_TYPES[kind]} function {call}" if kind else f"subroutine {call}"]
+    if kind:
+        text.append(f"  {PYF_TYPES[kind]} :: {routine.name.lower()}")
+    for argument in routine.arguments:
+        uses = f"intent({PYF_USES[argument.use]})"
+        for name in map(str.lower, argument.names):
+            shape = "" if argument.type == "character" else (argument.shape or "").lower()
+            if argument.use == "out":
+                for size, largest in known_afterwards.items():
+                    shape = re.sub(rf"\b{size}\b", largest, shape)
+                shape = re.sub(r"(\d)n", r"\1*n", shape.replace(">=", ""))
+            elif shape and (">=" in shape or not set(re.findall("[a-z]+", shape)) <= names):
+                shape = "1" if shape == "any" else "*"
+            if routine.lout and name == "lout":
+                text.append("  integer, optional, intent(in) :: lout = 6")
+            else:
+                text.append(f"  {PYF_TYPES[argument.type]}, {uses}" + (f", dimension({shape})" * bool(shape)) + f" :: {name}")
+    return "\n".join(text + [f"end {'function' if kind else 'subroutine'}"])
+
+
+def pyf(routines):
+    interfaces = "\n\n".join(textwrap.indent(signature(r), "    ") for r in routines)
+    return ("! Signatures of libstripack for f2py: docs/python.md. Made by docs/api/make-api.py.\n"
+            f"python module stripack\n  interface\n{interfaces}\n  end interface\nend python module\n")
+
+
 # ---- all files ----
 
 
@@ -462,6 +584,7 @@ def make_all(groups):
     files = {"docs/api/README.md": markdown_index(groups), "docs/api/ier.md": markdown_ier(groups),
              "src/fortran/stripack_module.F90": module_text(groups),
              "src/fortran/symbols.txt": "".join(sorted(f"{routine.name.lower()}_\n" for routine in routines)),
+             "src/fortran/stripack.h.in": c_header(routines), "src/fortran/stripack.pyf": pyf(routines),
              **plain_files(routines)}
     for routine in routines:
         files[f"docs/api/{routine.name.lower()}.md"] = markdown_page(routine)
@@ -481,7 +604,7 @@ def stale(files):
 def wrong_signatures(groups):
     """Routines of stripack_abi.F90 whose arguments are not the table's."""
     expected = {r.name.lower(): [",".join(r.names(x)).lower() for x in LIBRARIES] for _, rs in groups for r in rs}
-    text = re.sub(r"&\s*", "", ABI.read_text().replace(" AND_LOUT", ", lout"))
+    text = re.sub(r"&\s*", "", ABI.read_text())
     found = re.findall(r"^recursive .*?\b(?:subroutine|function) (\w+)\(([^)]*)\)", text, re.MULTILINE)
     return [name for name, arguments in found
             if arguments.replace(" ", "") not in expected.get(name, [])]
@@ -519,11 +642,12 @@ def main():
     if arguments.check:
         problems = [f"not up to date, run docs/api/make-api.py: {path}" for path in stale(files)]
         problems += [f"stripack_abi.F90: arguments of {name} are not the table's" for name in wrong_signatures(groups)]
+        problems += wrong_codes(groups)
         print("\n".join(problems) or f"{len(files)} files are up to date")
         sys.exit(1 if problems else 0)
-    for path, text in files.items():
+    for path in set(stale(files)) & files.keys():  # others keep their time: nothing is compiled again
         (ROOT / path).parent.mkdir(parents=True, exist_ok=True)
-        (ROOT / path).write_text(text)
+        (ROOT / path).write_text(files[path])
 
 
 if __name__ == "__main__":

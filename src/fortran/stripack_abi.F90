@@ -148,30 +148,23 @@ end function
 #endif
 
 ! The routines that print: libpstripack composes the text, write_records.inc writes it.
-! TRPRNT, TRLPRT: Algorithm 772 has a last argument LOUT. The Fortran 90 texts, which are REAL*8, have none and print on
-! standard output, so libstripack and libstripack_8arg never read LOUT. Most callers of the other two libraries pass it:
-! listing_unit.inc decides whether it is used.
+! TRPRNT, TRLPRT: Algorithm 772 has a last argument LOUT; the Fortran 90 texts, which are REAL*8, have none and print on
+! standard output in a layout of their own. listing_unit.inc decides whether LOUT was passed.
 #if STRIPACK_REAL_BYTES == 8 && STRIPACK_INTEGER_BYTES == 4
-#define F90_LISTING 1
-#define AND_LOUT
-#define DECLARE_LOUT
-#define LISTING_UNIT(fifth, sixth, seventh, eighth) int(6, INTEGER_KIND)
+#define IS_F90_LISTING int(merge(1, 0, unit == 6), INTEGER_KIND)
 #else
-#define STRIPACK_WITH_LOUT
-#define F90_LISTING 0
-#define AND_LOUT , lout
-#define DECLARE_LOUT integer(INTEGER_KIND), optional :: lout
-#define LISTING_UNIT(fifth, sixth, seventh, eighth) listing_unit(lout, n, fifth, sixth, seventh, eighth)
+#define IS_F90_LISTING int(0, INTEGER_KIND)
 #endif
 
 #ifdef STRIPACK_TRPRNT
-recursive subroutine trprnt(n, x, y, z, iflag, list, lptr, lend AND_LOUT)
+recursive subroutine trprnt(n, x, y, z, iflag, list, lptr, lend, lout)
   use, intrinsic :: iso_c_binding
   use, intrinsic :: iso_fortran_env, only: error_unit
   implicit none
   integer(INTEGER_KIND) :: n, iflag, list(*), lptr(*), lend(*)
   real(REAL_KIND) :: x(*), y(*), z(*)
-  DECLARE_LOUT
+  integer(INTEGER_KIND), optional :: lout
+  integer(INTEGER_KIND) :: unit
   integer :: status
   interface
     function c_trprnt(n, x, y, z, iflag, list, lptr, lend, f90) bind(c, name="pstripack_trprnt"//OF_REAL)
@@ -182,8 +175,8 @@ recursive subroutine trprnt(n, x, y, z, iflag, list, lptr, lend AND_LOUT)
       type(c_ptr) :: c_trprnt
     end function
   end interface
-  call write_records(c_trprnt(n, x, y, z, iflag, list, lptr, lend, int(F90_LISTING, INTEGER_KIND)), &
-                     LISTING_UNIT(iflag, list(1), lptr(1), lend(1)), status)
+  unit = listing_unit(lout, n, iflag, list(1), lptr(1), lend(1))
+  call write_records(c_trprnt(n, x, y, z, iflag, list, lptr, lend, IS_F90_LISTING), unit, status)
   if (status /= 0) write (error_unit, '(a,i0)') "pstripack: TRPRNT: cannot write, IOSTAT = ", status
 contains
 #include "listing_unit.inc"
@@ -192,13 +185,14 @@ end subroutine
 #endif
 
 #ifdef STRIPACK_TRLPRT
-recursive subroutine trlprt(n, x, y, z, iflag, nrow, nt, ltri AND_LOUT)
+recursive subroutine trlprt(n, x, y, z, iflag, nrow, nt, ltri, lout)
   use, intrinsic :: iso_c_binding
   use, intrinsic :: iso_fortran_env, only: error_unit
   implicit none
   integer(INTEGER_KIND) :: n, iflag, nrow, nt, ltri(*)
   real(REAL_KIND) :: x(*), y(*), z(*)
-  DECLARE_LOUT
+  integer(INTEGER_KIND), optional :: lout
+  integer(INTEGER_KIND) :: unit
   integer :: status
   interface
     function c_trlprt(n, x, y, z, iflag, nrow, nt, ltri, f90) bind(c, name="pstripack_trlprt"//OF_REAL)
@@ -209,8 +203,8 @@ recursive subroutine trlprt(n, x, y, z, iflag, nrow, nt, ltri AND_LOUT)
       type(c_ptr) :: c_trlprt
     end function
   end interface
-  call write_records(c_trlprt(n, x, y, z, iflag, nrow, nt, ltri, int(F90_LISTING, INTEGER_KIND)), &
-                     LISTING_UNIT(iflag, nrow, nt, ltri(1)), status)
+  unit = listing_unit(lout, n, iflag, nrow, nt, ltri(1))
+  call write_records(c_trlprt(n, x, y, z, iflag, nrow, nt, ltri, IS_F90_LISTING), unit, status)
   if (status /= 0) write (error_unit, '(a,i0)') "pstripack: TRLPRT: cannot write, IOSTAT = ", status
 contains
 #include "listing_unit.inc"

@@ -10,9 +10,14 @@
 !   libstripack_8arg   -DSTRIPACK_8_ARGUMENTS
 !   libstripack_i8     -fdefault-integer-8
 !
+! For a module of another name write one that uses this one, as
+!
+!   module trmesh_module; use stripack, only: trmesh; end module
+!
+! or define STRIPACK_MODULE. Two modules made in the second way are ambiguous where both are used, and CMake's
+! dependency scanner does not expand their name. Macros:
+!
 !   STRIPACK_MODULE        name of the module                    default: stripack
-!                          (CMake's dependency scanner does not expand it; in a CMake project write a module
-!                          of that name that contains `use stripack`)
 !   STRIPACK_REAL_KIND     kind of all REAL arguments            default: double precision, which is the kind
 !                          of the library and of a default REAL promoted by -r8 or -fdefault-real-8
 !   STRIPACK_8_ARGUMENTS   TRMESH without LNEW, NEAR, NEXT, DIST
@@ -117,8 +122,8 @@ module stripack
     ! Finds the next nearest node to a node.
     ! NPTS(1) is a node, NPTS(2..L-1) the nodes nearest to it, in order, from earlier calls; the call sets
     ! NPTS(L). Calls with L = 2, 3, ... give all nodes by their distance from NPTS(1).
-    ! IER  0 done; 1 L < 2; -5 a distance is not finite (new); -6 out of memory, only if L > 257 (new); -9 a
-    !      list runs into a loop (new); -10 NPTS holds a number below 1, or the same one twice (new); -11 no
+    ! IER  0 done; 1 L < 2; -5 a distance is not finite (new); -6 out of memory, only if L > 257 (new); -13 a
+    !      list runs into a loop (new); -10 NPTS holds a number below 1, or the same one twice (new); -15 no
     !      node is left: L > N (new).
     subroutine getnp(x, y, z, list, lptr, lend, l, npts, df, ier)
       integer :: list(*), lptr(*), lend(*), l, npts(*), ier
@@ -144,7 +149,7 @@ module stripack
     ! Uses slots from LNEW on.
     ! IER  0 done; -1 K < 4; -2 node K and all others lie on one great circle, or node K is (0,0,0);
     !      L > 0 node K coincides with node L; -4 6K-12 does not fit the integer kind (new); -5 a coordinate
-    !      of node K is not finite (new); -9 not the lists of a triangulation (new).
+    !      of node K is not finite (new); -13 not the lists of a triangulation (new).
     subroutine addnod(nst, k, x, y, z, list, lptr, lend, lnew, ier)
       integer :: nst, k, list(*), lptr(*), lend(k), lnew, ier
       real(STRIPACK_REAL_KIND) :: x(k), y(k), z(k)
@@ -158,7 +163,7 @@ module stripack
     ! IER  0 done; 1 K outside 1..N, N < 4, or LWK < 0; 2 LWK is too small; 3 K has fewer than 3 neighbours,
     !      or a neighbour does not list it: not a triangulation; 4 arcs of an interior node cannot be swapped
     !      away although there is a boundary; 5 OPTIM failed; a message on standard output; 6 OPTIM reached
-    !      its limit of iterations; -9 not the lists of a triangulation (new).
+    !      its limit of iterations; -13 not the lists of a triangulation (new).
     subroutine delnod(k, n, x, y, z, list, lptr, lend, lnew, lwk, iwk, ier)
       integer :: k, n, list(*), lptr(*), lend(n), lnew, lwk, iwk(2, *), ier
       real(STRIPACK_REAL_KIND) :: x(n), y(n), z(n)
@@ -169,7 +174,7 @@ module stripack
     ! convex: TRFIND, NEARND, ADDNOD, DELNOD and EDGE are then unreliable.
     ! IER  0 done; 1 N < 4, a node outside 1..N, or IO1 = IO2; 2 IO1-IO2 is not a boundary arc; 3 the node
     !      opposite is already a boundary node; 4 the nodes do not list each other: not a triangulation;
-    !      -9 not the lists of a triangulation (new).
+    !      -13 not the lists of a triangulation (new).
     subroutine delarc(n, io1, io2, list, lptr, lend, lnew, ier)
       integer :: n, io1, io2, list(*), lptr(*), lend(n), lnew, ier
     end subroutine
@@ -184,8 +189,8 @@ module stripack
     ! above N. It uses a number above N from another list only if two lists agree on it.
     ! IER  0 the arc exists; 1 IN1 < 1, IN2 < 1, IN1 = IN2 or LWK < 0; 2 more than LWK arcs cross IN1-IN2;
     !      3 no crossing arc is found: null triangles or a broken triangulation; a message on standard output;
-    !      4 OPTIM failed, also with -9; a message on standard output; 5 OPTIM reached its limit of
-    !      iterations; -9 not the lists of a triangulation (new); -10 the arcs cannot be swapped away: nodes
+    !      4 OPTIM failed, also with -13; a message on standard output; 5 OPTIM reached its limit of
+    !      iterations; -13 not the lists of a triangulation (new); -16 the arcs cannot be swapped away: nodes
     !      lie on IN1-IN2, up to rounding, or triangles overlap (new).
     subroutine edge(in1, in2, x, y, z, lwk, iwk, list, lptr, lend, ier)
       integer :: in1, in2, lwk, iwk(2, *), list(*), lptr(*), lend(*), ier
@@ -200,7 +205,7 @@ module stripack
     ! an arc agree on it; if both are wrong, it also reads outside X, Y, Z and LEND.
     ! IER  0 done: the last pass made no swap; 1 NIT passes did not suffice; 2 NA < 0 or NIT < 1; 3 a column
     !      is not an arc of the triangulation; 4 the other diagonal of a quadrilateral is already an arc: not
-    !      a triangulation; -9 not the lists of a triangulation (new).
+    !      a triangulation; -13 not the lists of a triangulation (new).
     subroutine optim(x, y, z, na, list, lptr, lend, nit, iwk, ier)
       integer :: na, list(*), lptr(*), lend(*), nit, iwk(2, *), ier
       real(STRIPACK_REAL_KIND) :: x(*), y(*), z(*)
@@ -237,8 +242,8 @@ module stripack
     ! Deletes a neighbour from a list.
     ! Removes NB from the list of N0, not N0 from the list of NB. If NB is a boundary node, N0 becomes one.
     ! The entry in the last slot, LNEW-1, moves into the free slot, so that slots 1..LNEW-1 stay in use.
-    ! LPH  > 0 done; -1 N < 3, or N0 or NB outside 1..N; -2 NB is not a neighbour of N0; -9 not the lists of a
-    !      triangulation (new).
+    ! LPH  > 0 done; -1 N < 3, or N0 or NB outside 1..N; -2 NB is not a neighbour of N0; -13 not the lists of
+    !      a triangulation (new).
     subroutine delnb(n0, nb, n, list, lptr, lend, lnew, lph)
       integer :: n0, nb, n, list(*), lptr(*), lend(n), lnew, lph
     end subroutine
@@ -250,8 +255,8 @@ module stripack
     ! SWAP is told neither N nor the lengths of the arrays: given a node above N, or LEND or LPTR above 6N-12,
     ! it reads outside the arrays. It writes only to slots in which it has read one of the four nodes, and to
     ! LEND of IO1 and IO2.
-    ! LP21  > 0 done; 0 IN1 and IN2 are already neighbours; -9 the lists do not contain these two triangles
-    !      (new).
+    ! LP21  > 0 done; 0 IN1 and IN2 are already neighbours; -13 the lists do not contain these two triangles;
+    !      or IO1 and IO2 are exchanged (new).
     subroutine swap(in1, in2, io1, io2, list, lptr, lend, lp21)
       integer :: in1, in2, io1, io2, list(*), lptr(*), lend(*), lp21
     end subroutine
@@ -276,7 +281,7 @@ module stripack
     ! With a boundary LPTR and LNEW change to describe the Voronoi diagram and no longer fit LIST: keep copies
     ! if you still need the triangulation. TRLIST numbers triangles differently.
     ! IER  0 done; 1 N < 3; 2 NCOL < NB-2; 3 corners of a triangle coincide; -5 a coordinate is not finite
-    !      (new); -6 out of memory (new); -9 not the lists of a triangulation (new).
+    !      (new); -6 out of memory (new); -13 not the lists of a triangulation (new).
     subroutine crlist(n, ncol, x, y, z, list, lend, lptr, lnew, ltri, listc, nb, xc, yc, zc, rc, ier)
       integer :: n, ncol, list(*), lend(n), lptr(*), lnew, ltri(6, *), listc(*), nb, ier
       real(STRIPACK_REAL_KIND) :: x(n), y(n), z(n), xc(*), yc(*), zc(*), rc(*)
@@ -322,7 +327,7 @@ module stripack
     ! straight segments; those with both ends outside the cap are omitted.
     ! IER  0 done; 1 LUN, PLTSIZ or N out of range; 2 ELAT, ELON or A out of range; 3 the unit cannot be
     !      written; gfortran does not report a full disk; -5 a node is not finite, or its length is not within
-    !      0.001..1000 (new); -6 out of memory (new); -9 not the lists of a triangulation (new).
+    !      0.001..1000 (new); -6 out of memory (new); -13 not the lists of a triangulation (new).
     subroutine trplot(lun, pltsiz, elat, elon, a, n, x, y, z, list, lptr, lend, title, numbr, ier)
       integer :: lun, n, list(*), lptr(*), lend(n), ier
       real(STRIPACK_REAL_KIND) :: pltsiz, elat, elon, a, x(n), y(n), z(n)
@@ -334,8 +339,8 @@ module stripack
     ! The view is that of TRPLOT.
     ! IER  0 done; 1 LUN, PLTSIZ or N out of range, or NT is not 2N-4; 2 ELAT, ELON or A out of range; 3 the
     !      unit cannot be written; gfortran does not report a full disk; -5 a node is not finite, or its
-    !      length is not within 0.001..1000 (new); -6 out of memory (new); -9 not the lists of a triangulation
-    !      (new).
+    !      length is not within 0.001..1000 (new); -6 out of memory (new); -13 not the lists of a
+    !      triangulation (new).
     subroutine vrplot(lun, pltsiz, elat, elon, a, n, x, y, z, nt, listc, lptr, lend, xc, yc, zc, title, &
         numbr, ier)
       integer :: lun, n, nt, listc(*), lptr(*), lend(n), ier

@@ -28,7 +28,7 @@ struct Octahedron {
   double x[6] = {1, 0, 0, -1, 0, 0}, y[6] = {0, 1, 0, 0, -1, 0}, z[6] = {0, 0, 1, 0, 0, -1};
 };
 
-// The layout of the Fortran 90 text, on standard output for any LOUT, which may not have been passed.
+// The layout of the Fortran 90 text, on standard output; to an open unit the layout of Algorithm 772.
 TEST(Trprnt, OfLibstripackPrintsAsFortran90Does) {
   const Octahedron half(5);
   const int iflag = -1, unit = 77;
@@ -56,7 +56,9 @@ TEST(Trprnt, OfLibstripackPrintsAsFortran90Does) {
             "NB =        4 boundary nodes\n"
             "NA =        8 arcs\n"
             "NT =        4 triangles\n");
-  EXPECT_EQ(written_to_unit(unit, [&] { EXPECT_EQ(print(&unit), print(nullptr)); }), "");
+  const std::string on_unit = written_to_unit(unit, [&] { EXPECT_EQ(print(&unit), ""); });
+  EXPECT_NE(on_unit.find("PSTRIPACK: "), std::string::npos);
+  EXPECT_NE(on_unit, print(nullptr));
 }
 
 TEST(Trlprt, OfLibstripackPrintsAsFortran90Does) {
@@ -91,7 +93,9 @@ TEST(Trlprt, OfLibstripackPrintsAsFortran90Does) {
             "NB =        4 boundary nodes\n"
             "NA =        8 arcs\n"
             "NT =        4 triangles\n");
-  EXPECT_EQ(written_to_unit(unit, [&] { EXPECT_EQ(print(&unit), print(nullptr)); }), "");
+  const std::string on_unit = written_to_unit(unit, [&] { EXPECT_EQ(print(&unit), ""); });
+  EXPECT_NE(on_unit.find("PSTRIPACK: "), std::string::npos);
+  EXPECT_NE(on_unit, print(nullptr));
 }
 
 /// Nodes with LIST, LPTR, LEND of our TRMESH.

@@ -1,4 +1,4 @@
-// TRPRNT and TRLPRT of libstripack_r4 and libstripack_i8, which use LOUT: callers written for the Fortran 90
+// LOUT of TRPRNT and TRLPRT: callers written for the Fortran 90
 // text do not pass it, and leave an arbitrary value in its place.
 
 #include <gtest/gtest.h>
@@ -55,9 +55,12 @@ TEST(Lout, IsReadWhereItNamesAnOpenUnit) {
   Octahedron mesh;
   const Int six = 6, unit = some_unit;
   EXPECT_GT(mesh.neighbours(&six).size(), 500U);
-  for (const auto listing : {&Octahedron::neighbours, &Octahedron::triangles})
-    EXPECT_EQ(written_to_unit(some_unit, [&] { EXPECT_EQ((mesh.*listing)(&unit), ""); }),
-              (mesh.*listing)(&six));
+  for (const auto listing : {&Octahedron::neighbours, &Octahedron::triangles}) {
+    const std::string text = written_to_unit(some_unit, [&] { EXPECT_EQ((mesh.*listing)(&unit), ""); });
+    EXPECT_GT(text.size(), 500U);
+    // libstripack prints on standard output as the Fortran 90 text does, to a unit as Algorithm 772.
+    if (sizeof(Real) == 4 || sizeof(Int) == 8) EXPECT_EQ(text, (mesh.*listing)(&six));
+  }
 }
 
 // What callers compiled by gfortran leave there: zero, a number, an invalid address, that of code or of a

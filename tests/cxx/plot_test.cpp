@@ -539,13 +539,13 @@ TEST(Plot, Ier_9) {
     Sphere sphere(7, 180, 2);  // the whole sphere: lists behind the horizon are not read
     for (int k = 1; k <= 7; ++k) sphere.x[k - 1] = std::abs(sphere.x[k - 1]);
     sphere.lptr[sphere.lend[3] - 1] = sphere.voronoi_lptr[sphere.lend[3] - 1] = slot;
-    for (const NamedRoutine& routine : routines) expect_refused(routine, sphere, -9);
+    for (const NamedRoutine& routine : routines) expect_refused(routine, sphere, -13);
   }
   for (const int number : {0, 99, -99, std::numeric_limits<int>::max()}) {
     Sphere sphere(7, 180, 2);
     for (int k = 1; k <= 7; ++k) sphere.x[k - 1] = std::abs(sphere.x[k - 1]);
     sphere.list[sphere.lptr[sphere.lend[3] - 1] - 1] = sphere.listc[sphere.lend[3] - 1] = number;
-    for (const NamedRoutine& routine : routines) expect_refused(routine, sphere, -9);
+    for (const NamedRoutine& routine : routines) expect_refused(routine, sphere, -13);
   }
 }
 

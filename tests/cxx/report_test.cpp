@@ -168,11 +168,22 @@ TEST(Report, TellsEveryCode) {
   ASSERT_EQ(all.size(), 7u);
   EXPECT_TRUE(matches(all[0], line_of("n=2 ranks=1 threads=1 triangles=0 boundary=0 ier=-1")));
   EXPECT_TRUE(matches(all[1], line_of("n=100 ranks=1 threads=1 triangles=0 boundary=0 ier=-2")));
-  EXPECT_TRUE(matches(all[2], line_of("n=100 ranks=1 threads=1 triangles=0 boundary=0 ier=-5")));
+  EXPECT_TRUE(matches(
+      all[2], line_of("n=100 ranks=1 threads=1 triangles=0 boundary=0 ier=-5") + " lengths=0\\.\\.1"));
   EXPECT_EQ(all[3].find("pstripack: trmesh: node 61 of 100"), 0u) << "the line of every IER -5";
   EXPECT_TRUE(matches(all[4], line_of("n=100 ranks=1 threads=1 triangles=[0-9]+ boundary=0 ier=31")));
   EXPECT_EQ(value(all[4], "triangles"), 2 * 70 - 4) << "nodes 1 to 70";
   EXPECT_TRUE(matches(all[6], row_of(4)));
+}
+
+TEST(Report, TellsTheLengthsWhereTheyAreNot1) {
+  const Folder folder;
+  const auto ends_with = [&](const std::string& as, const std::string& end) {
+    const std::string line = lines(run(folder, kOne, as).err).at(0);
+    return line.size() > end.size() && line.substr(line.size() - end.size()) == end;
+  };
+  EXPECT_TRUE(ends_with("lengths random 1000", " start=cold lengths=0.5..6.37e+03"));
+  EXPECT_TRUE(ends_with("calls random 1000 1", " start=cold"));
 }
 
 TEST(Report, IsAppendedToAFile) {
@@ -241,12 +252,13 @@ std::string order_of(const std::string& order, const std::string& arguments) {
 TEST(Report, TellsTheOrder) {
   const auto order_of = [&](const std::string& arguments) { return ::order_of("original", arguments); };
   EXPECT_EQ(order_of("inserted random 1000 1"), "order=original");
-  EXPECT_EQ(order_of("calls latlon 1000 1"), "order=canonical: the original's triangulation is not Delaunay");
+  EXPECT_EQ(order_of("calls latlon 1000 1"),
+            "order=canonical: the original's triangulation is not the exact mesh");
   EXPECT_EQ(order_of("meridian"), "order=canonical: the original's search for node 4 does not end");
   EXPECT_EQ(order_of("in-line"),
             "order=canonical: STRIPACK rejects node 5: within rounding it is collinear with every visible "
             "boundary edge");
-  EXPECT_EQ(order_of("six"), "order=canonical: the original's triangulation is not Delaunay");
+  EXPECT_EQ(order_of("six"), "order=canonical: the original's triangulation is not the exact mesh");
 }
 
 TEST(Report, TellsHowFarFromTheExactMeshTheOriginalIs) {
@@ -308,7 +320,12 @@ int run_as(const std::string& action, const std::string& family, std::size_t n, 
   }
   for (const auto& [name, nodes] : {std::pair("six", &kSix), {"copy", &kCopy}, {"collinear", &kCollinear}})
     if (action == name) return trmesh(*nodes).ier;
-  const Nodes nodes = point_sets::make(family, n);
+  Nodes nodes = point_sets::make(family, n);
+  if (action == "lengths") {
+    for (auto& p : nodes) p = {6371 * p.x, 6371 * p.y, 6371 * p.z};
+    nodes[7] = {0, 0, 0.5};
+    return trmesh(nodes).ier;
+  }
   if (action == "inserted") return trmesh(nodes).ier;
   const auto call = [&nodes] { call_trmesh(nodes); };
   if (action == "threads") {

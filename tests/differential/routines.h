@@ -125,8 +125,7 @@ void cstrlprt_(const StripackInteger* n, const StripackReal* x, const StripackRe
                const StripackInteger* iflag, const StripackInteger* nrow, const StripackInteger* nt,
                const StripackInteger* ltri, const StripackInteger* lout);
 
-// Only in our libraries. TRPRNT and TRLPRT ignore LOUT, except in libstripack_r4 and libstripack_i8. The
-// length of a Fortran string is a hidden last argument.
+// Only in our libraries. The length of a Fortran string is a hidden last argument.
 void trprnt_(const StripackInteger* n, const StripackReal* x, const StripackReal* y, const StripackReal* z,
              const StripackInteger* iflag, const StripackInteger* list, const StripackInteger* lptr,
              const StripackInteger* lend, const StripackInteger* lout);

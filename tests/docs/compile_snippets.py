@@ -45,7 +45,10 @@ contains
 end module
 """}
 USES = {"changed.md": ["use copy"]}
-C_CONTEXT = {"scvt-interface.md": """#include <pstripack_mpi.h>
+C_CONTEXT = {"relink.md": """#include <stripack.h>
+static stripack_integer n, *list, *lptr, *lend, lnew, *near, *next, ier;
+static stripack_real *x, *y, *z, *dist;
+""", "scvt-interface.md": """#include <pstripack_mpi.h>
 static double *x, *y, *z, *xyz, cells;
 static int32_t n, ier;
 static int64_t* number;

@@ -91,7 +91,7 @@ contains
     call refuses_nodes(-5, [3], 1, "GETNP: L < 0")
     call refuses_nodes(3, [3, 0], -10, "GETNP: node 0")
     call refuses_nodes(4, [3, 5, 3], -10, "GETNP: a node twice")
-    call refuses_nodes(n + 1, [(l, l=1, n)], -11, "GETNP: L > N")
+    call refuses_nodes(n + 1, [(l, l=1, n)], -15, "GETNP: L > N")
     nodes(3, 2) = nan
     call refuses_nodes(2, [3], -5, "GETNP: NaN")
     nodes(3, 2) = huge_number

@@ -256,7 +256,7 @@ contains
       call expect(ier == 2 .and. nt == 0, "TRLIST of broken lists")
       call expect(all(ltri(:, 2*60 - 3:) == mark), "TRLIST writes 2N-4 columns at most")
       d = voronoi(broken)
-      call expect(d%ier == -9 .and. d%lnew == m%lnew .and. all(d%lptr == broken%lptr), "CRLIST of broken lists")
+      call expect(d%ier == -13 .and. d%lnew == m%lnew .and. all(d%lptr == broken%lptr), "CRLIST of broken lists")
     end do
     broken = m
     where (broken%list == 7) broken%list = 8  ! a neighbour that does not list the node

@@ -69,8 +69,7 @@ for kind in "" --static; do
     fail "timestamp: $(head -n 1 output)"
 done
 # Without any shared library: as docs/relink.md says.
-gfortran -static-pie "$consumer/fortran90.f90" -o static_pie $($config --abi f90,r8 --static --libs) \
-  -Wl,-u,pthread_mutex_destroy
+gfortran -static-pie "$consumer/fortran90.f90" -o static_pie $($config --abi f90,r8 --static --libs)
 ./static_pie > output || fail "static_pie ends with status $?"
 tail -n 1 output | grep -qx 'fortran90: right' || fail "static_pie"
 check 0 "$(each TRMESH "ours (libstripack): in the program itself")" static_pie
@@ -113,6 +112,31 @@ gfortran model.o -o wrong_static libold.a
 check 1 "$(each "$all" "NOT OURS: in the program itself")" wrong_static
 strip wrong_static
 check 1 "$(each "$all" "not seen; the program is stripped")" wrong_static
+
+# A module procedure of the old text beside calls of ours is named; one that calls ours is none of the old text.
+for body in '' 'call ours'; do
+  cat > module.f90 << END
+module old_module
+  interface
+    subroutine ours() bind(c, name="trmesh_")
+    end subroutine
+  end interface
+contains
+  subroutine trmesh
+    $body
+  end subroutine
+end module
+END
+  printf '%s\n' 'subroutine second' 'use old_module' 'call trmesh' end > second.f90
+  gfortran module.f90 second.f90 model.o -o both $($config --abi f90,r8 --libs) -Wl,-rpath,"$libdir"
+  if [ -z "$body" ]; then
+    check 1 "$(each "$some" "ours (libstripack): $ours_r8")TRMESH  NOT OURS: __old_module_MOD_trmesh: in the program itself;" both
+  else
+    check 0 "$(each "$some" "ours (libstripack): $ours_r8")TRMESH  __old_module_MOD_trmesh calls trmesh_: in the program itself;" both
+  fi
+done
+cc $($config --abi c --cflags) "$consumer/c_api.c" -o c_api $($config --abi c --libs) -Wl,-rpath,"$libdir"
+"$config" --check c_api | grep -q '^ours: c_api calls the C interface: pstripack_' || fail "a program of the C interface"
 
 # Compiled with kinds that another of our libraries has; the planar TRIPACK.
 says() { grep -qF -e "$1" "$work/errors" || { cat "$work/errors"; fail "expected '$1'"; }; }

@@ -46,7 +46,7 @@ for kind in shared --static; do
   run i8 $kind gfortran -fdefault-integer-8 $(config --fflags --abi i8) "$consumer/legacy.F90"
   run pstripack $kind gfortran $(config --abi pstripack --fflags) "$work/modern.f90"
   "$work/program" | grep -qx "version $version" || fail "pstripack_version() is not $version"
-  run r8 $kind cc "$consumer/legacy.c"
+  run r8 $kind cc $(config --cflags) "$consumer/legacy.c"
   run c $kind cc $(config --abi c --cflags) "$consumer/c_api.c"
   if [ -n "$mpiexec" ]; then
     run r8,mpi $kind mpifort $(config --abi r8,mpi --fflags) "$consumer/mpi_fortran.f90"

@@ -33,6 +33,25 @@ gfortran -DSINGLE_PRECISION $(pkg-config --cflags stripack_r4) "$consumer/legacy
 gfortran -DEIGHT_ARGUMENTS $(pkg-config --cflags stripack_8arg) "$consumer/legacy.F90" -o "$work/pc_8arg" $(pkg-config --libs stripack_8arg)
 gfortran -fdefault-integer-8 $(pkg-config --cflags stripack_i8) "$consumer/legacy.F90" -o "$work/pc_i8" $(pkg-config --libs stripack_i8)
 cc $(pkg-config --cflags pstripack) "$consumer/c_api.c" -o "$work/pc_c" $(pkg-config --libs pstripack)
+for library in stripack stripack_r4 stripack_i8; do
+  cc -Wall -Werror $(pkg-config --cflags $library) "$consumer/legacy.c" -o "$work/header" $(pkg-config --libs $library)
+  "$work/header" | grep -x 'legacy: 8 triangles'
+done
+g++ -x c++ -Wall -Werror $(pkg-config --cflags stripack) "$consumer/legacy.c" -o "$work/header" $(pkg-config --libs stripack)
+# As docs/python.md says.
+if /usr/bin/python3 -c 'import numpy.f2py, distutils' 2> "$work/no_f2py.log"; then
+  echo "== f2py"
+  cd "$work"
+  CFLAGS=-O0 /usr/bin/python3 -m numpy.f2py --noopt -c "$prefix/share/pstripack/stripack.pyf" $(pkg-config --libs stripack) \
+    > f2py.log 2>&1 || { tail -n 20 f2py.log; exit 1; }
+  /usr/bin/python3 -c '
+import numpy as np, stripack
+x, y, z = stripack.trans(np.radians([0, 0, 90, 0, 0, -90]), np.radians([0, 90, 0, 180, -90, 0]))
+list, lptr, lend, lnew, ier = stripack.trmesh(x, y, z)
+nt, triangles, ier = stripack.trlist2(list, lptr, lend)
+print("f2py:", nt, "triangles, area", sum(stripack.areas(*np.c_[x, y, z][t - 1]) for t in triangles.T[:nt]) / np.pi)' |
+    grep -x 'f2py: 8 triangles, area 4.0'
+fi
 for program in pc_r8 pc_r4 pc_8arg pc_i8 pc_c; do "$work/$program"; done
 "$work/pc_c" | grep "^c_api: pstripack $version,"
 # The command of docs/plots.md needs no build folder.
@@ -64,7 +83,7 @@ archives=$(pkg-config --libs --static stripack | sed "s|-lstripack|$libdir/libst
 # shellcheck disable=SC2086
 gfortran -I "$prefix/include/pstripack/stripack" "$consumer/legacy.F90" -o "$work/static" $archives
 # shellcheck disable=SC2086
-cc "$consumer/legacy.c" -o "$work/static_c" $archives
+cc -I "$prefix/include/pstripack/stripack" "$consumer/legacy.c" -o "$work/static_c" $archives
 for program in static static_c; do
   "$work/$program"
   if ldd "$work/$program" | grep -q pstripack; then echo "$program needs a shared pstripack" >&2; exit 1; fi

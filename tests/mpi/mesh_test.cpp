@@ -392,7 +392,7 @@ TEST(DistributedMesh, WritesALineOfEachNewCode) {
   const auto from_zero = [](std::size_t i) { return static_cast<std::int64_t>(i); };
   expect_line(
       nodes, from_zero,
-      "point 0: a global number is below 1, occurs twice, or is too large for what was asked (IER = -10)");
+      "point 0: a node number is below 1, occurs twice, or is too large for what was asked (IER = -10)");
   nodes[7] = nodes[3];
   expect_line(nodes, from_one, "points 4 and 8: two points lie in the same direction (IER = -9)");
   nodes[20].y = HUGE_VAL;

@@ -6,22 +6,22 @@
  *   intadd   node kk is linked to the corners of the triangle i1, i2, i3
  *   bdyadd   node kk is linked to the boundary nodes from i1 (rightmost) to i2 (leftmost)
  *   covsph   node kk is linked to all boundary nodes, of which n0 is one
- *   swap     arc io1-io2 gives way to in1-in2; lp21: slot of in1 in the list of in2; 0 refused; -9
- *   delnb    nb is removed from the list of n0; lph: the slot freed; -1 no such node; -2 no neighbour; -9
+ *   swap     arc io1-io2 gives way to in1-in2; lp21: slot of in1 in the list of in2; 0 refused; -13
+ *   delnb    nb is removed from the list of n0; lph: the slot freed; -1 no such node; -2 no neighbour; -13
  *   delarc   boundary arc io1-io2 is removed; ier 0; 1 bad argument; 2 not a boundary arc; 3 the third corner
- *            is on the boundary; 4 not neighbours; -9
+ *            is on the boundary; 4 not neighbours; -13
  *   swptst   1 if n4 lies above the plane of n1, n2, n3, else 0
- *   optim    ier 0; 1 nit iterations did not do; 2 bad argument; 3 not an arc; 4 no exchange possible; -9
+ *   optim    ier 0; 1 nit iterations did not do; 2 bad argument; 3 not an arc; 4 no exchange possible; -13
  *   edge     ier 0; 1 bad argument; 2 lwk too small; 3 no way from in1 to in2; 4 optim failed; 5 optim
- *            returned 1; -9; -10 exchanges would not end, nothing but iwk is changed
+ *            returned 1; -13; -16 exchanges would not end, nothing but iwk is changed
  *   addnod   ier 0; L > 0 node k coincides with L; -1 k < 4; -2 all nodes on one great circle, or node k is
- *            zero; -4 6k-12 is too large; -5 node k is not finite; -9
+ *            zero; -4 6k-12 is too large; -5 node k is not finite; -13
  *   delnod   ier 0; 1 bad argument; 2 lwk too small; 3 fewer than 3 neighbours, or one does not list k;
- *            4 no triangulation of the gap; 5 optim failed; 6 optim returned 1; -9
+ *            4 no triangulation of the gap; 5 optim failed; 6 optim returned 1; -13
  *
  * edge, delnod: where optim failed, *nit and *optim_ier are what it returned; else they are not written.
- * -9: not the lists of a triangulation; insert, intadd, bdyadd, covsph then change nothing, the others
- * perhaps a part. Each case that STRIPACK does not have (-4, -5, -9, -10) prints one line on stderr.
+ * -13: not the lists of a triangulation; insert, intadd, bdyadd, covsph then change nothing, the others
+ * perhaps a part. Each case that STRIPACK does not have (below -2) prints one line on stderr.
  */
 #ifndef PSTRIPACK_EDIT_CALLS_H
 #define PSTRIPACK_EDIT_CALLS_H

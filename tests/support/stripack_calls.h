@@ -19,11 +19,11 @@
  *   areas    area of the spherical triangle v1[3], v2[3], v3[3]
  *   circum   c[3]; ier: 0; 1 two corners coincide; -5 not finite. c is untouched unless ier = 0
  *   crlist   ier: 0; 1 n < 3; 2 ncol < nb-2; 3 coincident nodes; -5 a coordinate is not finite; -6 out of
- *            memory; -9 not the lists of a triangulation. On -6 nothing but ier is written
+ *            memory; -13 not the lists of a triangulation. On -6 nothing but ier is written
  *   trfind   b1, b2, b3, i1, i2, i3; all of i1, i2, i3 are 0 if p[3] is not found
  *   nearnd   the nearest node, 0 if there is none; al in radians
  *   getnp    npts[l], of which the last is written; df; ier: 0; 1 l < 2; -5 a coordinate is not finite; -6
- *            out of memory; -10 npts holds a number below 1 or one twice; -11 no node left
+ *            out of memory; -10 npts holds a number below 1 or one twice; -15 no node left
  *   inside   1 if p[3] lies in the polygon, else 0; ier: 0; 1 bad nv; 2 bad vertex; 3 self-intersecting;
  *            4 no reference point; -5 not finite. 0 unless ier = 0
  *   intrsc   p[3]; ier: 0; 1 parallel; 2 antipodal; -5 not finite. p is untouched unless ier = 0

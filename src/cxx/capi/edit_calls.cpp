@@ -1,6 +1,6 @@
 // The routines of STRIPACK that change a triangulation, as C functions: as in stripack_calls.cpp, but
-// arguments that the routine changes are passed by pointer. Codes that STRIPACK does not have (-4, -5, -9,
-// -10) print one line on stderr. edge, delnod: if optim failed, *nit and *optim_ier are what it returned;
+// arguments that the routine changes are passed by pointer. Codes that STRIPACK does not have (below
+// -2) print one line on stderr. edge, delnod: if optim failed, *nit and *optim_ier are what it returned;
 // else they are not written.
 
 #include <stdint.h>
@@ -9,6 +9,7 @@
 
 #include "base/floating_point.h"
 #include "capi/plain_calls.h"
+#include "capi/pstripack.h"
 #include "stripack/arc_edit.h"
 #include "stripack/list_edit.h"
 #include "stripack/node_edit.h"
@@ -17,18 +18,19 @@ namespace {
 
 using namespace pstripack;
 
+/// The code that a program gets (PSTRIPACK_CODES).
+int code_of(int status) {
+  if (status == broken_lists) return PSTRIPACK_BAD_LISTS;
+  return status == static_cast<int>(EdgeStatus::not_possible) ? PSTRIPACK_NO_EDGE : status;
+}
+
 /// Returns the code. If STRIPACK does not have it, prints the reason on stderr.
-template <class Code>
-int said(const char* routine, Code code) {
-  const int ier = static_cast<int>(code);
-  const char* why = nullptr;
-  if (ier == static_cast<int>(AddnodStatus::too_many_nodes)) why = "6K-12 does not fit an INTEGER";
-  if (ier == static_cast<int>(AddnodStatus::not_finite)) why = "a coordinate of node K is not finite";
-  if (ier == broken_lists)
-    why = "LIST, LPTR, LEND are not the lists of a triangulation that fits the arguments";
-  if (ier == static_cast<int>(EdgeStatus::not_possible))
-    why = "the arc cannot be made: nodes lie on it, up to rounding, or triangles overlap";
-  if (why != nullptr) std::fprintf(stderr, "pstripack: %s: code %d: %s\n", routine, ier, why);
+template <class Status>
+int said(const char* routine, Status status, const char* why = nullptr) {
+  const int ier = code_of(static_cast<int>(status));
+  if (ier < PSTRIPACK_COLLINEAR)
+    std::fprintf(stderr, "pstripack: %s: code %d: %s\n", routine, ier,
+                 why != nullptr ? why : pstripack_strerror(ier));
   return ier;
 }
 
@@ -54,12 +56,15 @@ extern "C" {
   }                                                                                                        \
   void pstripack_swap_##suffix(Int in1, Int in2, Int io1, Int io2, Int* list, Int* lptr, Int* lend,        \
                                Int* lp21) noexcept {                                                       \
-    if (said("SWAP", swap(in1, in2, io1, io2, EditedLists<Int>::unbounded(list, lptr, lend), *lp21)) != 0) \
-      *lp21 = broken_lists;                                                                                \
+    const int ier = said(                                                                                  \
+        "SWAP", swap(in1, in2, io1, io2, EditedLists<Int>::unbounded(list, lptr, lend), *lp21),            \
+        "the lists do not contain triangles (IO1,IO2,IN1) and (IO2,IO1,IN2), in this order of the nodes"); \
+    if (ier != 0) *lp21 = ier;                                                                             \
   }                                                                                                        \
   void pstripack_delnb_##suffix(Int n0, Int nb, Int n, Int* list, Int* lptr, Int* lend, Int* lnew,         \
                                 Int* lph) noexcept {                                                       \
-    if (said("DELNB", delnb(n0, nb, {n, list, lptr, lend, lnew}, *lph)) != 0) *lph = broken_lists;         \
+    const int ier = said("DELNB", delnb(n0, nb, {n, list, lptr, lend, lnew}, *lph));                       \
+    if (ier != 0) *lph = ier;                                                                              \
   }                                                                                                        \
   void pstripack_delarc_##suffix(Int n, Int io1, Int io2, Int* list, Int* lptr, Int* lend, Int* lnew,      \
                                  Int* ier) noexcept {                                                      \
@@ -88,14 +93,14 @@ extern "C" {
                 }));                                                                                        \
     if (failure.ier == 0) return;                                                                           \
     *nit = failure.nit;                                                                                     \
-    *optim_ier = failure.ier;                                                                               \
+    *optim_ier = code_of(static_cast<int>(failure.ier));                                                    \
   }                                                                                                         \
   void pstripack_addnod_##suffix(Int nst, Int k, const Real* x, const Real* y, const Real* z, Int* list,    \
                                  Int* lptr, Int* lend, Int* lnew, Int* ier) noexcept {                      \
     *ier = in_default_floating_point([&] {                                                                  \
       return addnod(nst, Nodes<Real>{x, y, z}, EditedLists<Int>{k, list, lptr, lend, lnew});                \
     });                                                                                                     \
-    if (*ier < 0) said("ADDNOD", *ier);                                                                     \
+    if (*ier < 0) *ier = said("ADDNOD", *ier);                                                              \
   }                                                                                                         \
   void pstripack_delnod_##suffix(Int k, Int* n, Real* x, Real* y, Real* z, Int* list, Int* lptr, Int* lend, \
                                  Int* lnew, Int* lwk, Int* iwk, Int* ier, Int* nit,                         \
@@ -106,7 +111,7 @@ extern "C" {
                 }));                                                                                        \
     if (failure.ier == 0) return;                                                                           \
     *nit = failure.nit;                                                                                     \
-    *optim_ier = failure.ier;                                                                               \
+    *optim_ier = code_of(static_cast<int>(failure.ier));                                                    \
   }
 
 LIST_EDIT_CALLS(int32_t, i4)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <limits>
@@ -55,6 +56,15 @@ TrmeshResult carry_out(const TrmeshCall& call, CallReport* report) noexcept {
   report.order_node = result.order_node;
   if (result.ier >= 0) report.nodes_in_mesh = result.ier > 0 ? result.other - 1 : call.n;
   for (std::int64_t k = 0; k < report.nodes_in_mesh; ++k) report.boundary_nodes += list[lend[k] - 1] < 0;
+  if (call.n >= 3 && result.ier != PSTRIPACK_TOO_MANY_NODES) {
+    report.shortest = std::numeric_limits<double>::infinity(), report.longest = 0;
+    for (std::int32_t k = 0; k < call.n; ++k) {
+      const Point p = call.nodes[static_cast<std::size_t>(k)];
+      const double length = std::hypot(p.x, p.y, p.z);
+      report.shortest = std::fmin(report.shortest, length);
+      report.longest = std::fmax(report.longest, length);
+    }
+  }
   if (result.order == OriginalOrder::inexact) {
     try {
       const auto nodes = static_cast<std::size_t>(report.nodes_in_mesh);
@@ -150,39 +160,11 @@ const char* pstripack_version(void) { return PSTRIPACK_VERSION; }
 const char* pstripack_strerror(int ier) {
   if (ier > 0) return "this node coincides with a later one";
   switch (ier) {
-    case PSTRIPACK_OK:
-      return "success";
-    case PSTRIPACK_TOO_FEW_NODES:
-      return "fewer than three nodes";
-    case PSTRIPACK_COLLINEAR:
-      return "the first three nodes lie on one great circle";
-    case PSTRIPACK_EMPTY_MESH:
-      return "the mesh is empty";
-    case PSTRIPACK_TOO_MANY_NODES:
-      return "too many nodes: 6N-11 does not fit 32 bits";
-    case PSTRIPACK_BAD_COORDINATE:
-      return "a coordinate is not finite, or all are zero";
-    case PSTRIPACK_OUT_OF_MEMORY:
-      return "out of memory";
-    case PSTRIPACK_RANKS_DISAGREE:
-      return "the ranks of a collective call disagree in N, in the coordinates, in PSTRIPACK_ORDER or in "
-             "root";
-    case PSTRIPACK_BAD_COMM:
-      return "not a communicator that can be used: null, freed, an inter-communicator, or MPI is not running";
-    case PSTRIPACK_COINCIDENT:
-      return "two points lie in the same direction";
-    case PSTRIPACK_BAD_NUMBER:
-      return "a global number is below 1, occurs twice, or is too large for what was asked";
-    case PSTRIPACK_BAD_SIZE:
-      return "arrays of different sizes, or too short, or a size below 0";
-    case PSTRIPACK_BAD_DENSITY:
-      return "the density is not positive, or not finite, at some place";
-    case PSTRIPACK_HEMISPHERE:
-      return "the generators lie in one hemisphere";
-    case PSTRIPACK_BAD_LISTS:
-      return "the lists are not those of a triangulation of the sphere by the generators";
-    case PSTRIPACK_BAD_OPTION:
-      return "an option has a value that is not allowed";
+#define PSTRIPACK_CODE(name, value, meaning) \
+  case name:                                 \
+    return meaning;
+    PSTRIPACK_CODES(PSTRIPACK_CODE)
+#undef PSTRIPACK_CODE
   }
   return "unknown code";
 }

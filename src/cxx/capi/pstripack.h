@@ -21,29 +21,42 @@
 extern "C" {
 #endif
 
-/* Error codes. pstripack_trmesh returns TRMESH's IER; a result L > 0 means that nodes L and M > L coincide,
- * where M is the smallest such number. Each function below names the codes that it returns. */
+/* Error codes: CODE(name, value, meaning), the only table of them; docs/api/make-api.py reads it. Each
+ * function below names the codes that it returns. A result L > 0 of TRMESH means that nodes L and M > L
+ * coincide, where M is the smallest such number. STRIPACK's routines return these codes too, beside those
+ * that the original has: -1, -2 and numbers above 0, which each routine's page explains. */
+#define PSTRIPACK_CODES(CODE)                                                                              \
+  CODE(PSTRIPACK_OK, 0, "success")                                                                         \
+  CODE(PSTRIPACK_TOO_FEW_NODES, -1, "fewer than three nodes; of generators, fewer than four")              \
+  CODE(PSTRIPACK_COLLINEAR, -2,                                                                            \
+       "the first three nodes, or all of a distributed mesh, lie on one great circle")                     \
+  CODE(PSTRIPACK_EMPTY_MESH, -3, "the mesh is empty")                                                      \
+  CODE(PSTRIPACK_TOO_MANY_NODES, -4, "too many nodes: 6N-11 does not fit the integers")                    \
+  CODE(PSTRIPACK_BAD_COORDINATE, -5, "a coordinate is not finite, or all are zero")                        \
+  CODE(PSTRIPACK_OUT_OF_MEMORY, -6, "out of memory")                                                       \
+  CODE(PSTRIPACK_RANKS_DISAGREE, -7,                                                                       \
+       "the ranks of a collective call disagree in N, in the coordinates, in PSTRIPACK_ORDER or in root")  \
+  CODE(PSTRIPACK_BAD_COMM, -8,                                                                             \
+       "not a communicator that can be used: null, freed, an inter-communicator, no such rank, or MPI is " \
+       "not running")                                                                                      \
+  CODE(PSTRIPACK_COINCIDENT, -9, "two points lie in the same direction")                                   \
+  CODE(PSTRIPACK_BAD_NUMBER, -10,                                                                          \
+       "a node number is below 1, occurs twice, or is too large for what was asked")                       \
+  CODE(PSTRIPACK_BAD_DENSITY, -11,                                                                         \
+       "the density is not positive, not finite or varies too much at some place, or a result is beyond "  \
+       "the largest double")                                                                               \
+  CODE(PSTRIPACK_HEMISPHERE, -12, "the generators lie in one hemisphere")                                  \
+  CODE(PSTRIPACK_BAD_LISTS, -13, "the lists are not those of a triangulation of these nodes")              \
+  CODE(PSTRIPACK_BAD_OPTION, -14, "an option has a value that is not allowed")                             \
+  CODE(PSTRIPACK_NONE_LEFT, -15, "no node is left that is not in NPTS")                                    \
+  CODE(PSTRIPACK_NO_EDGE, -16,                                                                             \
+       "the arc cannot be made: nodes lie on it, up to rounding, or triangles overlap")                    \
+  CODE(PSTRIPACK_BAD_SIZE, -100, "arrays of different sizes, or too short, or a size below 0")
+
 enum {
-  PSTRIPACK_OK = 0,
-  PSTRIPACK_TOO_FEW_NODES = -1,  /* n < 3 */
-  PSTRIPACK_COLLINEAR = -2,      /* the first three nodes lie on one great circle */
-  PSTRIPACK_EMPTY_MESH = -3,     /* distributed: the mesh has no triangulation */
-  PSTRIPACK_TOO_MANY_NODES = -4, /* 6n-11 does not fit 32 bits */
-  PSTRIPACK_BAD_COORDINATE = -5, /* a coordinate is not finite, or a vector is zero */
-  PSTRIPACK_OUT_OF_MEMORY = -6,
-  /* Only in programs that use pstripack_mpi.h: */
-  PSTRIPACK_RANKS_DISAGREE =
-      -7,                    /* the ranks of a collective call disagree in n, data, PSTRIPACK_ORDER or root */
-  PSTRIPACK_BAD_COMM = -8,   /* no usable communicator, or no such rank; MPI must not be called here */
-  PSTRIPACK_COINCIDENT = -9, /* distributed, scvt: two points in the same direction, or nearly */
-  PSTRIPACK_BAD_NUMBER = -10, /* distributed: a global number is below 1, or occurs twice */
-  PSTRIPACK_BAD_SIZE = -100,  /* distributed: n < 0; Fortran: arrays whose sizes do not fit */
-  /* Only of the functions pstripack_scvt*: */
-  PSTRIPACK_BAD_DENSITY = -11, /* the density is not positive, not finite, or varies too much, at some place;
-                                  or a result is beyond the largest double */
-  PSTRIPACK_HEMISPHERE = -12,  /* the generators lie in one hemisphere */
-  PSTRIPACK_BAD_LISTS = -13, /* the lists are not those of a triangulation of the sphere by the generators */
-  PSTRIPACK_BAD_OPTION = -14 /* an option has a value that is not allowed */
+#define PSTRIPACK_CODE(name, value, meaning) name = value,
+  PSTRIPACK_CODES(PSTRIPACK_CODE)
+#undef PSTRIPACK_CODE
 };
 
 /* The version "major.minor.patch" of the library that is loaded. */
@@ -79,8 +92,8 @@ PSTRIPACK_API int32_t pstripack_delaunay(int32_t n, const double* x, const doubl
                                          int32_t* list, int32_t* lptr, int32_t* lend, int32_t* lnew);
 
 /* Validates lists as of pstripack_trmesh or pstripack_delaunay. Returns 0 if they are a correct triangulation
- * of the nodes: well formed, every triangle counterclockwise, every arc locally Delaunay (exact signs, ties by
- * the rule), sphere or hull covered once. Otherwise returns the number of the violated property (> 0), or
+ * of the nodes: well formed, every triangle counterclockwise, every arc locally Delaunay (exact signs, ties
+ * by the rule), sphere or hull covered once. Otherwise returns the number of the violated property (> 0), or
  * -1, -4 or -6.
  *   lnew     0 if it is not known
  *   message  out, may be NULL: the defect and the nodes; at most `length` bytes, including the closing zero

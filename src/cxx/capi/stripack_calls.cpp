@@ -18,6 +18,7 @@
 
 #include "base/floating_point.h"
 #include "capi/plain_calls.h"
+#include "capi/pstripack.h"
 #include "stripack/coordinates_and_areas.h"
 #include "stripack/list_queries.h"
 #include "stripack/original/original_rules.h"
@@ -31,7 +32,7 @@ namespace {
 
 using namespace pstripack;
 
-constexpr int not_finite = -5, out_of_memory = -6;
+constexpr int not_finite = PSTRIPACK_BAD_COORDINATE;
 
 template <class Int>
 ListsView<Int> view(Int n, const Int* list, const Int* lptr, const Int* lend) {
@@ -43,43 +44,18 @@ Vector<Real> vector(const Real* v) {
   return {v[0], v[1], v[2]};
 }
 
-/// The text for a negative code.
-template <class Status>
-const char* meaning(Status status) {
-  return static_cast<int>(status) == not_finite ? "a coordinate is not finite"
-                                                : "LIST, LPTR, LEND are not the lists of a triangulation";
-}
-const char* meaning(NextNearestStatus status) {
-  switch (status) {
-    case NextNearestStatus::broken_lists:
-      return "LIST, LPTR, LEND are not the lists of a triangulation";
-    case NextNearestStatus::bad_nodes:
-      return "NPTS holds a number below 1, or one twice";
-    case NextNearestStatus::none_left:
-      return "no node is left that is not in NPTS";
-    default:
-      return "a coordinate is not finite";
-  }
-}
-
 /// The one catch-all: runs call() and returns its code, or -6 for an exception, since only the allocator
 /// throws. For a negative code prints the reason on stderr. n = 0: the routine is not told N. call() must
 /// set the floating-point environment that it needs.
 template <class Call>
 int caught(const char* routine, long long n, const Call& call) {
-  int code;
-  const char* why;
+  int code = PSTRIPACK_OUT_OF_MEMORY;
   try {
-    const auto status = call();
-    code = static_cast<int>(status);
-    why = meaning(status);
-  } catch (const std::exception& error) {
-    code = out_of_memory;
-    why = error.what();
-  } catch (...) {          // untested: nothing below throws anything else
-    code = out_of_memory;  // untested: of the handler for what nothing throws
-    why = "unknown exception";
+    code = static_cast<int>(call());
+    if (code == static_cast<int>(VoronoiStatus::broken_lists)) code = PSTRIPACK_BAD_LISTS;
+  } catch (...) {  // only std::bad_alloc is possible
   }
+  const char* const why = pstripack_strerror(code);
   if (code < 0 && n > 0)
     std::fprintf(stderr, "pstripack: %s: IER = %d, N = %lld: %s\n", routine, code, n, why);
   if (code < 0 && n == 0) std::fprintf(stderr, "pstripack: %s: IER = %d: %s\n", routine, code, why);

@@ -14,6 +14,7 @@
 
 #include "base/floating_point.h"
 #include "base/system.h"
+#include "capi/pstripack.h"
 #include "stripack/listing.h"
 #include "stripack/postscript.h"
 
@@ -50,11 +51,13 @@ template <class Int, class Compose>
 void* picture(const char* routine, Int& ier, const Compose& compose) {
   PlotStatus status = PlotStatus::done;
   void* text = composed(routine, [&](FormattedText& out) { status = compose(out); });
-  ier = text != nullptr ? static_cast<Int>(status) : Int{-6};
-  if (status == PlotStatus::bad_node)
-    complain(routine, "IER = -5: a point is not finite, or far from the unit sphere");
-  if (status == PlotStatus::broken_lists)
-    complain(routine, "IER = -9: the lists are not those of a triangulation or Voronoi diagram");
+  ier = text == nullptr                      ? Int{PSTRIPACK_OUT_OF_MEMORY}
+        : status == PlotStatus::broken_lists ? Int{PSTRIPACK_BAD_LISTS}
+                                             : static_cast<Int>(status);
+  if (text != nullptr && ier < 0)
+    std::fprintf(stderr, "pstripack: %s: IER = %d: %s\n", routine, static_cast<int>(ier),
+                 ier == PSTRIPACK_BAD_COORDINATE ? "a point is not finite, or far from the unit sphere"
+                                                 : pstripack_strerror(static_cast<int>(ier)));
   if (ier == 0) return text;
   delete static_cast<Text*>(text);
   return nullptr;

@@ -25,6 +25,7 @@
 #include "observe/recorded_block.h"
 #include "observe/shadow_process.h"
 #include "parallel/cost.h"
+#include "stripack/original/original_rules.h"
 
 namespace pstripack {
 namespace {
@@ -168,17 +169,27 @@ namespace {
 BlockHeader header_of(BlockHeader::Kind kind, const CheckedCall& call) {
   BlockHeader header;
   header.kind = kind;
+  header.routine = call.routine;
   header.real_bytes = call.real_bytes;
   header.integer_bytes = sizeof(std::int32_t);
   header.call = call.number;
   header.n = call.n;
   return header;
 }
+
+BlockHeader::Routine routine_of(const TrmeshCall& call) {
+  const OriginalRules& rules = original_rules();
+  if (call.by_direction) return BlockHeader::delaunay;
+  if (!rules.follow) return BlockHeader::trmesh;
+  if (rules.single_precision_random) return rules.bitwise ? BlockHeader::bitwise_ngmath : BlockHeader::ngmath;
+  return rules.bitwise ? BlockHeader::bitwise : BlockHeader::original;
+}
 }  // namespace
 
 CheckedCall check_input(Check& check, const TrmeshCall& trmesh) noexcept {
   const NodeArrays& nodes = trmesh.nodes;
-  CheckedCall call{static_cast<std::uint32_t>(nodes.real_bytes()), check.next_number(), trmesh.n, 0};
+  CheckedCall call{routine_of(trmesh), static_cast<std::uint32_t>(nodes.real_bytes()), check.next_number(),
+                   trmesh.n, 0};
   BlockHeader header = header_of(BlockHeader::input, call);
   // If n is out of range TRMESH does not read the arrays, which may have any length.
   const bool is_read = trmesh.n >= 3 && trmesh.n <= most_nodes<std::int32_t>();

@@ -11,7 +11,7 @@ namespace pstripack {
 
 /// What the input block and the output block of a call have in common.
 struct CheckedCall {
-  std::uint32_t real_bytes;
+  std::uint32_t routine, real_bytes;
   std::int64_t number, n;
   double start;  ///< seconds, after the input was written
 };

@@ -15,7 +15,8 @@ struct BlockHeader {
     input = 1,   ///< body: x(1..n), y(1..n), z(1..n); empty if n < 3 or n is too large
     output = 2,  ///< body: list(1..lnew-1), lptr(1..lnew-1), lend(1..nodes); empty if ier < 0
   };
-  enum Routine : std::uint32_t { trmesh = 1 };
+  /// TRMESH under each value of PSTRIPACK_ORDER, then pstripack_delaunay.
+  enum Routine : std::uint32_t { trmesh = 1, original, bitwise, ngmath, bitwise_ngmath, delaunay };
 
   char magic[8] = {};
   std::uint32_t byte_order = kByteOrder;

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <climits>
 #include <cmath>
 #include <cstdio>
@@ -41,6 +42,12 @@ class Text {
   void add_seconds(std::int64_t us, int width = 0) {
     const int before_point = width > 7 ? width - 7 : 0;
     add("%*lld.%06d", before_point, static_cast<long long>(us / 1000000), static_cast<int>(us % 1000000));
+  }
+  /// To three digits, also without the program's locale.
+  void add_number(double value) {
+    char digits[32];
+    const auto end = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, 3).ptr;
+    add("%.*s", static_cast<int>(end - digits), digits);
   }
   bool empty() const { return size_ == 0; }
   bool write_to(int file) const {
@@ -115,6 +122,12 @@ class Report {
       if (call.cost.maximum.flips >= 0)
         line.add(" flips=%lld", static_cast<long long>(call.cost.total.flips));
     }
+    if (call.shortest < 1 - 1e-6 || call.longest > 1 + 1e-6) {
+      line.add(" lengths=");
+      line.add_number(call.shortest);
+      line.add("..");
+      line.add_number(call.longest);
+    }
     add_order(line, call);
     line.add("\n");
     write(line);
@@ -147,7 +160,7 @@ class Report {
         line.add(" order=canonical: the original's search for node %lld does not end", node);
         break;
       case OriginalOrder::wrong:
-        line.add(" order=canonical: the original's triangulation is not Delaunay");
+        line.add(" order=canonical: the original's triangulation is not the exact mesh");
         break;
       case OriginalOrder::broken:
         line.add(" order=canonical: the original's lists are no triangulation");

@@ -15,6 +15,7 @@ struct CallReport : CallWay {
   std::int64_t nodes_in_mesh = 0;  ///< fewer than n if IER > 0; 0 if there is no mesh
   std::int64_t boundary_nodes = 0;
   std::int32_t ier = 0;
+  double shortest = 1, longest = 1;  ///< lengths of the nodes, as far as known
   OriginalOrder order = OriginalOrder::not_asked;
   std::int64_t order_node = 0;
   std::optional<ExactDifference> difference;  ///< of an inexact mesh; none if memory did not suffice
