@@ -47,7 +47,8 @@ class Places(Values):
         """
         places = self._vectors(xi, lon, lat, units)
         found, _ = self._mesh.find(places.reshape(-1, 3), self.simplices, False, self._number(threads))
-        return scalar(found.reshape(places.shape[:-1]))
+        simplex: Ints = scalar(found.reshape(places.shape[:-1]))
+        return simplex
 
     def barycentric(self, xi: Optional[ArrayLike] = None, *, lon: Optional[ArrayLike] = None,
                     lat: Optional[ArrayLike] = None, units: Optional[str] = None,

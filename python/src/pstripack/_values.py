@@ -115,7 +115,8 @@ def _joined(array: NDArray[Any], rows: Rows, nodes: int) -> NDArray[Any]:
     first = np.full(nodes, len(array))
     np.minimum.at(first, rows.node, np.arange(len(array)))
     if not rows.means or array.dtype.kind not in "fiub":
-        return array[first]
+        of_first: NDArray[Any] = array[first]
+        return of_first
     numbers = array.astype(np.float64)
     is_there = ~np.isnan(numbers)
     sums, counts = np.zeros((2, nodes, *array.shape[1:]))
