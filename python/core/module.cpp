@@ -318,6 +318,11 @@ PYBIND11_MODULE(_core, m) {
       raise(e);
     }
   });
+  // Ctrl-C ends long searches.
+  bindings::between_places = [] {
+    const py::gil_scoped_acquire locked;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  };
   m.attr("version") = pstripack_version();
   py::class_<Mesh>(m, "Mesh")
       .def(py::init<py::array_t<double>, int>(), py::arg("points").noconvert(), py::arg("threads"))

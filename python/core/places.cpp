@@ -1,9 +1,12 @@
 // Queries at places: the triangle, the nearest nodes, an interpolated value, weights.
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -27,6 +30,7 @@ constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 template <class State, class Visit>
 std::vector<State> Triangulation::visit_places(const Point* places, std::size_t count, const Visit& visit) {
   constexpr std::size_t kBlock = 512, kMost = std::size_t{1} << 28;
+  constexpr std::chrono::milliseconds kPause(200);
   const int threads = pstripack::threads_for(20 * count);
   std::vector<State> states(static_cast<std::size_t>(threads));
   for (std::size_t first = 0; first < count; first += kMost) {
@@ -41,10 +45,25 @@ std::vector<State> Triangulation::visit_places(const Point* places, std::size_t 
     pstripack::insertion_order(known.data(), part, order.data(), workspace);
     const std::size_t blocks = (part + kBlock - 1) / kBlock;
     pstripack::ErrorsOfThreads errors(states.size());
+    std::atomic<bool> is_over{false};
+    const std::thread::id caller = std::this_thread::get_id();
+    auto last = std::chrono::steady_clock::now();
+    const auto pause = [&] {
+      const auto now = std::chrono::steady_clock::now();
+      if (between_places == nullptr || std::this_thread::get_id() != caller || now - last < kPause) return;
+      last = now;
+      try {
+        between_places();
+      } catch (...) {
+        is_over = true;
+        throw;
+      }
+    };
     pstripack::parallel_pieces(blocks, threads, [&](std::size_t begin, std::size_t end, int piece) {
       const auto thread = static_cast<std::size_t>(piece);
       errors.keep(thread, [&] {
-        for (std::size_t block = begin; block < end; ++block) {
+        for (std::size_t block = begin; block < end && !is_over; ++block) {
+          pause();
           std::int32_t near = 1;
           for (std::size_t k = block * kBlock; k < std::min((block + 1) * kBlock, part); ++k) {
             const std::size_t i = order[k];
@@ -60,6 +79,12 @@ std::vector<State> Triangulation::visit_places(const Point* places, std::size_t 
 
 namespace {
 struct Nothing {};
+
+/// The terms of a cubic value.
+struct Cubic {
+  std::vector<methods::Share> shares;
+  std::vector<Point> ways;
+};
 
 /// Of each thread: what it found, place after place, and what it needs for that.
 template <class State>
@@ -160,24 +185,56 @@ Buffer<double> Triangulation::interpolate(Method method, const Point* places, st
     });
     return result;
   }
-  std::vector<double> of_nodes(n_);
-  for (std::size_t column = 0; column < columns; ++column) {
-    for (std::size_t i = 0; i < n_; ++i) of_nodes[i] = values[i * columns + column];
-    const std::vector<Point> slopes = methods::gradients(view(), of_nodes);
-    visit_shares([&](std::size_t i, const Point& p, const Shares& shares) {
-      result[i * columns + column] = interpolation_->cubic_value(p, shares, of_nodes, slopes);
+  constexpr std::size_t kMost = 32;  // columns at a time: their gradients are three times as large
+  for (std::size_t from = 0; from < columns; from += kMost) {
+    const std::size_t these = std::min(kMost, columns - from);
+    const std::vector<Point> slopes = methods::gradients(view(), {values + from, these, columns});
+    visit_places<Cubic>(places, count, [&](std::size_t i, const Point& p, std::int32_t& near, Cubic& at) {
+      if (!interpolation_->natural(p, near, at.shares)) return;
+      interpolation_->cubic_terms(p, at.shares, at.ways);
+      for (std::size_t column = 0; column < these; ++column) {
+        double sum = 0;
+        for (std::size_t k = 0; k < at.shares.size(); ++k) {
+          const auto node = static_cast<std::size_t>(at.shares[k].node) - 1;
+          sum += at.shares[k].part * values[node * columns + from + column];
+          if (at.shares.size() > 1) sum += dot(at.ways[k], slopes[node * these + column]);
+        }
+        result[i * columns + from + column] = sum;
+      }
     });
   }
   return result;
 }
 
 Rows Triangulation::weights(Method method, const Point* places, std::size_t count) const {
-  return rows<Nothing>(
-      places, count, [&](const Point& p, std::int32_t& near, std::vector<methods::Share>& shares, Nothing&) {
+  const methods::GradientTerms gradients =
+      method == Method::cubic ? methods::gradient_terms(view()) : methods::GradientTerms{};
+  return rows<Cubic>(
+      places, count, [&](const Point& p, std::int32_t& near, std::vector<methods::Share>& shares, Cubic& at) {
         if (method == Method::linear)
           interpolation_->linear(p, near, shares);
         else
           interpolation_->natural(p, near, shares);
+        if (method != Method::cubic || shares.size() < 2) return;
+        interpolation_->cubic_terms(p, shares, at.ways);
+        at.shares = shares;
+        for (std::size_t k = 0; k < at.ways.size(); ++k) {
+          const auto node = static_cast<std::size_t>(shares[k].node);
+          for (std::size_t t = gradients.begin[node - 1]; t < gradients.begin[node]; ++t) {
+            const auto& [other, slope] = gradients.terms[t];
+            const double part = dot(at.ways[k], slope);
+            at.shares.push_back({other, part});
+            at.shares.push_back({shares[k].node, -part});
+          }
+        }
+        std::stable_sort(at.shares.begin(), at.shares.end(),
+                         [](const methods::Share& a, const methods::Share& b) { return a.node < b.node; });
+        shares.clear();
+        for (const methods::Share& s : at.shares)
+          if (!shares.empty() && shares.back().node == s.node)
+            shares.back().part += s.part;
+          else
+            shares.push_back(s);
       });
 }
 

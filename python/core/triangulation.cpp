@@ -1,21 +1,25 @@
 #include "triangulation.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <new>
 #include <numeric>
 #include <sstream>
 
 #include "base/parallel_for.h"
+#include "base/workspace.h"
 #include "capi/pstripack.h"
+#include "files/mesh.h"
 #include "geometry/measures.h"
 #include "geometry/predicates.h"
 #include "lists/limits.h"
 #include "lists/rings.h"
+#include "mesh/delaunay.h"
 #include "methods/gradients.h"
-#include "scvt/cells.h"
 #include "stripack/list_queries.h"
 #include "stripack/triangle_list.h"
 #include "stripack/voronoi.h"
@@ -54,23 +58,48 @@ std::vector<std::size_t> three_corners(std::size_t n, const Node& node) {
   return {0, second, third};
 }
 
-NoTriangulation coincidence(std::size_t a, std::size_t b) {
-  const auto first = static_cast<std::int64_t>(std::min(a, b)),
-             second = static_cast<std::int64_t>(std::max(a, b));
-  return {Cause::coincident,
-          "nodes " + std::to_string(first) + " and " + std::to_string(second) +
-              " (counted from 0) point in the same direction: remove one of them",
-          {first, second}};
+/// All pairs of a node and the first node in the same direction, in increasing order of the former.
+NoTriangulation coincidence(const Buffer<Point>& nodes) {
+  pstripack::Workspace workspace(pstripack::workspace_bytes(nodes.size()));
+  const pstripack::Hull hull = pstripack::delaunay(nodes.data(), nodes.size(), workspace);
+  std::map<pstripack::index_t, pstripack::index_t>
+      first;  // key: the node of each direction that the hull has
+  for (const auto& [in, out] : hull.coincident)
+    first[in] = std::min({first.try_emplace(in, in).first->second, in, out});
+  std::vector<std::array<std::int64_t, 2>> pairs;  // the later node, the first one
+  const auto add = [&](pstripack::index_t in, pstripack::index_t node) {
+    if (node != first[in]) pairs.push_back({node, first[in]});
+  };
+  for (const auto& [in, out] : hull.coincident) add(in, out);
+  for (const auto& [in, least] : first) add(in, in);
+  std::sort(pairs.begin(), pairs.end());
+  constexpr std::size_t kTold = 5;
+  std::vector<std::int64_t> both;
+  std::string told;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    both.insert(both.end(), {pairs[k][1], pairs[k][0]});
+    if (k < kTold)
+      told += (k > 0 ? ", " : "") + std::to_string(pairs[k][1]) + " and " + std::to_string(pairs[k][0]);
+  }
+  if (pairs.size() == 1)
+    told = "nodes " + told + " (counted from 0) point in the same direction: remove one of them";
+  else
+    told = std::to_string(pairs.size()) + " nodes point in the same direction as earlier ones: nodes " +
+           told + (pairs.size() > kTold ? ", ..." : "") +
+           " (counted from 0): remove them, or join them by duplicates='first' or 'mean'";
+  return {Cause::coincident, told, std::move(both)};
 }
 
-/// Unwritten lists for `count` nodes with `capacity` slots.
+struct Coincidence {};
+
+/// Unwritten lists for n nodes.
 struct Lists {
   Buffer<std::int32_t> list, lptr, lend;
   std::int32_t lnew = 0;
 
   explicit Lists(std::size_t n) : list(6 * n - 12), lptr(6 * n - 12), lend(n) {}
 
-  /// Calls TRMESH. False if it returns -2. Throws NoTriangulation and std::bad_alloc.
+  /// Calls TRMESH. False if it returns -2. Throws Coincidence and std::bad_alloc.
   bool triangulate(const double* x, const double* y, const double* z) {
     std::fill(lend.begin(), lend.end(), 0);
     const auto n = static_cast<std::int32_t>(lend.size());
@@ -78,15 +107,35 @@ struct Lists {
     if (ier == PSTRIPACK_COLLINEAR) return false;
     if (ier == PSTRIPACK_OUT_OF_MEMORY) throw std::bad_alloc();
     if (ier < 0) throw std::runtime_error(pstripack_strerror(ier));
-    if (ier > 0) {  // the lists have the nodes before the second of the two
-      const auto second = std::find(lend.begin(), lend.end(), 0) - lend.begin();
-      throw coincidence(static_cast<std::size_t>(ier) - 1, static_cast<std::size_t>(second));
-    }
+    if (ier > 0) throw Coincidence();
     return true;
   }
 };
 
 }  // namespace
+
+/// The directions of the given coordinates.
+struct Triangulation::Exact {
+  explicit Exact(const Triangulation& mesh) : points(copy(mesh)), directions(points.data(), mesh.n_) {}
+  /// Of the corners some triangles after corners[k], which may lie anywhere in memory.
+  [[gnu::always_inline]] void prefetch(const Buffer<std::int32_t>& corners, std::size_t k) const {
+    constexpr std::size_t kAhead = 3 * 16;
+    if (k + kAhead + 2 >= corners.size()) return;
+    for (std::size_t i = k + kAhead + 1; i < k + kAhead + 3; ++i) directions.prefetch(corners[i]);
+  }
+
+  Buffer<Point> points;
+  pstripack::Directions directions;
+
+ private:
+  static Buffer<Point> copy(const Triangulation& mesh) {
+    Buffer<Point> points(mesh.n_);
+    parallel_pieces(mesh.n_, threads_for(mesh.n_), [&](std::size_t begin, std::size_t end, int) {
+      for (std::size_t i = begin; i < end; ++i) points[i] = mesh.given(i);
+    });
+    return points;
+  }
+};
 
 Triangulation::~Triangulation() = default;
 
@@ -98,7 +147,11 @@ Triangulation::Triangulation(const Coordinates& given) : n_(given.n) {
     throw NoTriangulation(Cause::too_many,
                           std::to_string(n_) + " nodes are too many: at most " + std::to_string(most));
   read(given);
-  triangulate();
+  try {
+    triangulate();
+  } catch (const Coincidence&) {
+    throw coincidence(Exact(*this).points);
+  }
   make_directions();
   interpolation_.emplace(view());
 }
@@ -152,14 +205,8 @@ void Triangulation::triangulate_in_another_order() {
     for (std::size_t axis = 0; axis < 3; ++axis) columns[axis * n_ + i] = given_[axis][node];
   }
   Lists other(n_);
-  try {
-    if (!other.triangulate(columns.data(), columns.data() + n_, columns.data() + 2 * n_))
-      throw std::runtime_error(pstripack_strerror(PSTRIPACK_COLLINEAR));
-  } catch (const NoTriangulation& e) {
-    if (e.cause != Cause::coincident) throw;
-    throw coincidence(static_cast<std::size_t>(order[static_cast<std::size_t>(e.nodes[0])]),
-                      static_cast<std::size_t>(order[static_cast<std::size_t>(e.nodes[1])]));
-  }
+  if (!other.triangulate(columns.data(), columns.data() + n_, columns.data() + 2 * n_))
+    throw std::runtime_error(pstripack_strerror(PSTRIPACK_COLLINEAR));
 
   const Reader reader({n_, other.list.data(), other.lptr.data(), other.lend.data(), other.lnew});
   Lists lists(n_);
@@ -299,29 +346,6 @@ std::vector<std::int32_t> Triangulation::boundary() const {
   return nodes;
 }
 
-/// The directions of the given coordinates.
-struct Triangulation::Exact {
-  explicit Exact(const Triangulation& mesh) : points(copy(mesh)), directions(points.data(), mesh.n_) {}
-  /// Of the corners some triangles after corners[k], which may lie anywhere in memory.
-  [[gnu::always_inline]] void prefetch(const Buffer<std::int32_t>& corners, std::size_t k) const {
-    constexpr std::size_t kAhead = 3 * 16;
-    if (k + kAhead + 2 >= corners.size()) return;
-    for (std::size_t i = k + kAhead + 1; i < k + kAhead + 3; ++i) directions.prefetch(corners[i]);
-  }
-
-  Buffer<Point> points;
-  pstripack::Directions directions;
-
- private:
-  static Buffer<Point> copy(const Triangulation& mesh) {
-    Buffer<Point> points(mesh.n_);
-    parallel_pieces(mesh.n_, threads_for(mesh.n_), [&](std::size_t begin, std::size_t end, int) {
-      for (std::size_t i = begin; i < end; ++i) points[i] = mesh.given(i);
-    });
-    return points;
-  }
-};
-
 const Triangulation::Exact& Triangulation::exact() const {
   std::call_once(exact_once_, [this] { exact_ = std::make_unique<const Exact>(*this); });
   return *exact_;
@@ -387,13 +411,9 @@ Buffer<Point> Triangulation::midpoints(const std::int32_t* nodes, std::size_t ar
 }
 
 Buffer<Point> Triangulation::gradients(const double* values, std::size_t columns) const {
+  const std::vector<Point> slopes = methods::gradients(view(), {values, columns, columns});
   Buffer<Point> result(n_ * columns);
-  std::vector<double> of_nodes(n_);
-  for (std::size_t column = 0; column < columns; ++column) {
-    for (std::size_t i = 0; i < n_; ++i) of_nodes[i] = values[i * columns + column];
-    const std::vector<Point> slopes = methods::gradients(view(), of_nodes);
-    for (std::size_t i = 0; i < n_; ++i) result[i * columns + column] = slopes[i];
-  }
+  std::copy(slopes.begin(), slopes.end(), result.begin());
   return result;
 }
 
@@ -450,23 +470,16 @@ Cells Triangulation::cells() const {
 }
 
 Buffer<Point> Triangulation::cell_centroids() const {
-  const Cells mesh = cells();
-  std::vector<Point> generators(n_);
-  for (std::size_t i = 0; i < n_; ++i) generators[i] = at(static_cast<std::int32_t>(i));
-  const pstripack::scvt::NeighbourLists stars{n_, mesh.corners.begin.data() + 1, mesh.beyond.data()};
-  const pstripack::scvt::ConstantDensity one;
-  pstripack::scvt::Cells integrals;
-  pstripack::scvt::integrate(generators.data(), stars, one, integrals);
-  Buffer<Point> centroids(n_);
-  for (std::size_t i = 0; i < n_; ++i) {
-    if (!is_good(integrals, i))
-      throw NoTriangulation(
-          Cause::too_narrow,
-          "node " + std::to_string(i) + " (counted from 0) has a cell too narrow for its centroid",
-          {static_cast<std::int64_t>(i)});
-    centroids[i] = centroid(integrals, i, generators[i]);
-  }
-  return centroids;
+  const Cells found = cells();
+  files::Faces faces;
+  faces.points.assign(found.vertices.begin(), found.vertices.end());
+  faces.begin.assign(found.corners.begin.begin(), found.corners.begin.end());
+  for (const std::int32_t corner : found.corners.values) faces.corner.push_back(corner + 1);
+  files::find_half_turns(faces, found.beyond.data(), exact().directions);
+  const std::vector<Point> centroids = files::centroids(faces);
+  Buffer<Point> result(n_);
+  std::copy(centroids.begin(), centroids.end(), result.begin());
+  return result;
 }
 
 Buffer<double> Triangulation::cell_areas() const {

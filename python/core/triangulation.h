@@ -33,7 +33,7 @@ inline Point direction(const Point& p) { return has_unit_length(p) ? p : files::
 
 /// The nodes have no triangulation; gives the reason and the nodes in question.
 struct NoTriangulation : std::runtime_error {
-  enum class Cause { too_few, too_many, bad_coordinate, coincident, collinear, too_narrow };
+  enum class Cause { too_few, too_many, bad_coordinate, coincident, collinear };
   NoTriangulation(Cause c, const std::string& message, std::vector<std::int64_t> n = {})
       : std::runtime_error(message), cause(c), nodes(std::move(n)) {}
   Cause cause;
@@ -71,6 +71,10 @@ struct Coordinates {
   const double* axis[3];
   std::ptrdiff_t stride;
 };
+
+/// Called some times a second in long searches, by the thread that has called the member, unless null. What
+/// it throws ends the search.
+inline void (*between_places)() = nullptr;
 
 /// Several threads may call members at the same time. Members use OpenMP's number of threads of the calling
 /// thread and throw std::bad_alloc.
@@ -112,8 +116,7 @@ class Triangulation {
   /// sphere.
   Cells cells() const;
   Buffer<double> cell_areas() const;
-  /// The direction of the integral of p over each cell, right up to 1e-6 of the width of the cell. Throws
-  /// NoTriangulation for a cell too narrow for its integral.
+  /// The direction of the integral of p over each cell, as files/mesh.h computes it.
   Buffer<Point> cell_centroids() const;
   ClosestPair closest_pair() const;
   /// The gradients that methods/gradients.h estimates. `values` has `columns` consecutive values for each
@@ -144,8 +147,8 @@ class Triangulation {
   using Method = methods::Interpolation::Method;
   Buffer<double> interpolate(Method method, const Point* places, std::size_t count, const double* values,
                              std::size_t columns) const;
-  /// The weights of the nodes in a value at each place, by Method::linear or natural; none outside the
-  /// triangles.
+  /// The weights of the nodes in a value at each place, by Method::linear, natural or cubic; none outside
+  /// the triangles.
   Rows weights(Method method, const Point* places, std::size_t count) const;
 
  private:

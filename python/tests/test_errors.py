@@ -162,12 +162,14 @@ def test_nodes_that_change_afterwards_do_no_harm(order):
             other.points[0] = 0
 
 
-def test_arrays_that_are_returned_may_be_changed():
+def test_arrays_that_are_returned_cannot_harm_a_mesh():
     mesh = Delaunay(POINTS)
-    expected = mesh.areas, mesh.circumcenters
-    mesh.simplices[:] = 2**30
-    assert np.array_equal(mesh.areas, expected[0]) and np.array_equal(mesh.circumcenters, expected[1])
-    assert mesh.find_simplex(POINTS).max() == -1
+    for array in (mesh.simplices, mesh.neighbors, *mesh.vertex_neighbor_vertices, mesh.areas, mesh.points):
+        with pytest.raises(ValueError, match="read-only"):
+            array += 1
+    list_, lptr, lend, _ = mesh.lists
+    list_[:] = lptr[:] = lend[:] = 2**30
+    assert mesh.find_simplex(POINTS).min() >= 0 and np.array_equal(mesh.areas, Delaunay(POINTS).areas)
     diagram = SphericalVoronoi(POINTS)
     areas = diagram.calculate_areas()
     diagram.vertices[:] = np.nan
@@ -178,3 +180,59 @@ def test_arrays_that_are_returned_may_be_changed():
             part[:] = 2**30
     diagram.regions[0].clear()
     assert len(diagram.regions[0]) == 0
+
+
+def test_a_pickle_is_that_of_the_nodes_alone():
+    """So that hashes of meshes (joblib, dask) do not change with what was read of them."""
+    mesh = Delaunay(POINTS)
+    before = pickle.dumps(mesh), mesh.__dask_tokenize__()
+    for name in "simplices", "neighbors", "vertex_neighbor_vertices", "areas", "edges":
+        getattr(mesh, name)
+    assert (pickle.dumps(mesh), mesh.__dask_tokenize__()) == before
+    assert Delaunay(POINTS[::-1]).__dask_tokenize__() != before[1]
+
+
+def test_all_nodes_that_coincide_are_in_the_error_or_joined():
+    points = np.vstack([POINTS, POINTS[[3, 7, 3]], 2 * POINTS[:2]])
+    with pytest.raises(CoincidentNodesError, match="5 nodes point in the same direction as earlier ones: nodes 3 and 50, 7 and 51, ") as caught:
+        Delaunay(points)
+    assert caught.value.nodes == (3, 50, 7, 51, 3, 52, 0, 53, 1, 54)
+    with pytest.raises(CoincidentNodesError):
+        SphericalVoronoi(points[:53])
+    values = np.arange(55.0)
+    values[51] = np.nan
+    for duplicates, at_3, at_7 in ("first", 3, 7), ("mean", (3 + 50 + 52) / 3, 7):
+        mesh = Delaunay(points, duplicates=duplicates)
+        assert np.array_equal(mesh.points, POINTS) and mesh.node_of_row[50:].tolist() == [3, 7, 3, 0, 1]
+        assert mesh.interpolate(values, POINTS[[3, 7, 9]], "nearest") == pytest.approx([at_3, at_7, 9])
+        assert mesh.interpolate(np.arange(50), POINTS[9]) == 9
+        assert pickle.loads(pickle.dumps(mesh)).interpolate(values, POINTS[3]) == at_3
+        with pytest.raises(ValueError, match="one for each of 50 nodes"):
+            mesh.gradient(np.zeros(54))
+    lon, lat = [180, -180, 0, 360, 5, 17, 90], [10, 10, 20, 20, 90, 90, 0]
+    mesh = Delaunay.from_lonlat(lon, lat, duplicates="first")
+    assert mesh.npoints == 4 and mesh.node_of_row.tolist() == [0, 0, 1, 1, 2, 2, 3]
+    with pytest.raises(ValueError, match="duplicates must be"):
+        Delaunay(POINTS, duplicates="last")
+    with pytest.raises(CoincidentNodesError, match="within the threshold"):
+        Delaunay(points + 1e-12 * np.arange(165).reshape(55, 3), threshold=1e-3, duplicates="first")
+
+
+def test_what_is_no_number_is_named():
+    lon = ["8.5", "6.1", "9,8", "7.4"]
+    with pytest.raises(ValueError, match=r"longitude of node 2 \(counted from 0\) is '9,8', not a number: .*decimal=','"):
+        Delaunay.from_lonlat(lon, [47, 46, 46.5, 46])
+    with pytest.raises(ValueError, match=r"latitude of node 1 \(counted from 0\) is 'n/a', not a number: pandas.to_numeric"):
+        Delaunay.from_lonlat([8, 9, 10], np.array([47, "n/a", 46], object))
+    with pytest.raises(ValueError, match="value 2 .* is 'x', not a number"):
+        Delaunay(POINTS).gradient(["1", "2", "x"] + ["3"] * 47)
+    with pytest.raises(TypeError, match="is a date"):
+        Delaunay(POINTS).gradient(np.zeros(50, "datetime64[s]"))
+    with pytest.raises(ValueError, match=r"metres of a map projection\? to_crs\(4326\)"):
+        Delaunay.from_lonlat([6e5, 6.1e5, 6.2e5], [5.19e6, 5.2e6, 5.21e6])
+    for make in (lambda: Delaunay.from_lonlat(np.arange(40), np.arange(30)),
+                 lambda: Delaunay(POINTS).nearest(lon=np.arange(40), lat=np.arange(30))):
+        with pytest.raises(ValueError, match=r"longitudes \(40,\) and latitudes \(30,\) do not fit each other.*meshgrid"):
+            make()
+    with pytest.raises(TypeError, match="a table with columns is needed, not list"):
+        Delaunay.from_dataframe([1, 2])

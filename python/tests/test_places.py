@@ -1,4 +1,6 @@
 """What a triangulation tells of places, against 340 digits and rationals."""
+import subprocess
+import sys
 from fractions import Fraction
 
 import numpy as np
@@ -78,7 +80,7 @@ class TestNearest:
         points = SETS[name]
         mesh, places = Delaunay(points), places_for(points)
         distances, nodes = mesh.nearest(places, len(points), distance=True)
-        for radius in (0, 1e-160, 3e-20, 0.3, 1.5, np.pi / 2, 2.0, 3.1, np.pi, 4.0, *distances[3, :5]):
+        for radius in (0, 1e-160, 3e-20, 0.3, 1.5, np.pi / 2, 2.0, 3.1, np.pi, *distances[3, :5]):
             found, indptr, indices = mesh.nearest(places, radius=radius, distance=True)
             for i in range(len(places)):
                 inside = distances[i] <= radius
@@ -144,28 +146,32 @@ class TestWeights:
         unit = self.places / np.linalg.norm(self.places, axis=1)[:, np.newaxis]
         assert met / np.linalg.norm(met, axis=1)[:, np.newaxis] == pytest.approx(unit, abs=1e-14)
 
-    @pytest.mark.parametrize("method", ["linear", "natural"])
+    @pytest.mark.parametrize("method", ["linear", "natural", "cubic"])
     def test_the_product_with_values_is_the_interpolated_value(self, method):
         values = np.random.default_rng(1).normal(size=(300, 2))
         matrix = self.mesh.weights(self.places.reshape(20, 20, 3), method)
-        assert isinstance(matrix, scipy.sparse.csr_matrix) and matrix.shape == (400, 300)
-        assert matrix.data.min() > 0 and np.abs(matrix.sum(axis=1) - 1).max() <= 1e-15
-        assert matrix @ values == pytest.approx(self.mesh.interpolate(values, self.places, method), abs=1e-15)
+        assert isinstance(matrix, scipy.sparse.csr_matrix) and matrix.shape == (400, 300) and matrix.has_sorted_indices == (method == "cubic")
+        assert (method == "cubic" or matrix.data.min() > 0) and np.abs(matrix.sum(axis=1) - 1).max() <= 4e-15
+        assert matrix @ values == pytest.approx(self.mesh.interpolate(values, self.places, method), abs=4e-15)
         at_nodes = self.mesh.weights(self.points, method)
         assert (at_nodes != scipy.sparse.identity(300)).nnz == 0
 
-    @pytest.mark.parametrize("method", ["linear", "natural"])
+    @pytest.mark.parametrize("method", ["linear", "natural", "cubic"])
     def test_rows_of_places_outside(self, method):
         outside = self.cap.find_simplex(self.places) < 0
         matrix = self.cap.weights(self.places, method)
         assert 0 < np.count_nonzero(outside) < 400 and np.array_equal(np.diff(matrix.indptr) == 0, outside)
         values = np.random.default_rng(1).normal(size=60)
         filled = self.cap.weights(self.places, method, outside="nearest")
-        assert filled @ values == pytest.approx(self.cap.interpolate(values, self.places, method, outside="nearest"), abs=1e-15)
-        assert np.abs(filled.sum(axis=1) - 1).max() <= 1e-15
+        expected = self.cap.interpolate(values, self.places, method, outside="nearest")
+        assert filled @ values == pytest.approx(expected, abs=1e-13)
+        assert np.abs(filled.sum(axis=1) - 1).max() <= 1e-14
+        nan = self.cap.weights(self.places, method, outside="nan") @ values
+        assert np.array_equal(np.isnan(nan), outside) and nan[~outside] == pytest.approx(expected[~outside], abs=1e-13)
 
     def test_wrong_arguments(self):
-        for options, message in (({"method": "cubic"}, "'linear' or 'natural', not 'cubic'"), ({"outside": "nan"}, "'empty' or 'nearest'")):
+        for options, message in (({"method": "nearest"}, "'natural' or 'cubic', not 'nearest'"),
+                                 ({"outside": "zero"}, "'empty', 'nearest' or 'nan', not 'zero'")):
             with pytest.raises(ValueError, match=message):
                 self.mesh.weights(self.places, **options)
 
@@ -178,7 +184,8 @@ CALLS = {
     "within": lambda mesh, *xi, **places: mesh.nearest(*xi, radius=0.2, **places)[1],
     "weights": lambda mesh, *xi, **places: mesh.weights(*xi, **places).toarray(),
     "natural weights": lambda mesh, *xi, **places: mesh.weights(*xi, method="natural", **places).toarray(),
-    **{method: lambda mesh, *xi, method=method, **places: mesh.interpolate(np.arange(mesh.npoints), *xi, method=method, **places)
+    **{"interpolate " + method: lambda mesh, *xi, method=method, **places: mesh.interpolate(1 + np.arange(mesh.npoints), *xi,
+                                                                                           method=method, **places)
        for method in ("linear", "cubic", "nearest")},
 }
 
@@ -223,7 +230,7 @@ class TestPlacesByLongitudeAndLatitude:
         """Where there would be no other sign of it; find_simplex has -1 and interpolate NaN."""
         call = CALLS[name]
         places = [[1, 0, 0], [0, np.nan, 0], [0, 0, 0]]
-        if name in ("find_simplex", "linear", "cubic"):
+        if name == "find_simplex" or name.startswith("interpolate"):
             found = call(self.mesh, places)
             assert found[0] > 0 and np.all(np.isnan(found[1:]) if name != "find_simplex" else found[1:] == -1)
             return
@@ -235,8 +242,40 @@ class TestPlacesByLongitudeAndLatitude:
             call(self.mesh, lon=[10, 11, 12], lat=[5, 6, np.nan])
 
 
+def test_one_place_has_numbers_as_of_a_tree():
+    mesh = Delaunay(random_nodes(20))
+    distance, node = mesh.nearest([1, 0, 0], distance=True)
+    found = distance, node, mesh.nearest([1, 0, 0]), mesh.find_simplex([1, 0, 0]), mesh.barycentric([1, 0, 0])[0]
+    assert all(np.isscalar(number) for number in found) and node == found[2]
+    for method in "linear", "natural", "cubic", "nearest":
+        assert np.isscalar(mesh.interpolate(np.arange(20.0), [1, 0, 0], method))
+
+
+def test_ctrl_c_ends_a_long_search():
+    program = """if True:
+        import os, signal, threading, time
+        import numpy as np
+        from pstripack import Delaunay
+        mesh = Delaunay(np.random.default_rng(1).normal(size=(20000, 3)))
+        places = np.random.default_rng(2).normal(size=(2000000, 3))
+        threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+        begin = time.monotonic()
+        try:
+            mesh.nearest(places, 200)
+        except KeyboardInterrupt:
+            print("ended", mesh.nearest([1, 0, 0]) >= 0, time.monotonic() - begin < 30)"""
+    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=250)
+    assert run.stdout == "ended True True\n", run
+
+
 def test_numbers_of_nodes_and_radii_that_are_wrong():
     mesh = Delaunay(random_nodes(20))
+    with pytest.raises(ValueError, match="radius is 500, more than pi: it is in radians"):
+        mesh.nearest([1, 0, 0], radius=500)
+    with pytest.raises(ValueError, match="threshold is 5, more than pi"):
+        Delaunay(random_nodes(20), threshold=5)
+    with pytest.raises(ValueError, match="longitudes and latitudes are passed as lon=, lat="):
+        mesh.nearest(9.5, 46.9)
     for k in 0, 21, -1:
         with pytest.raises(ValueError, match="k must be from 1 to 20"):
             mesh.nearest([1, 0, 0], k)

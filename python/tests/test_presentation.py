@@ -64,6 +64,14 @@ def test_nodes_are_found_in_the_columns_of_a_table():
     for names in (("lon", "lat"), ("LON", "Lat"), ("longitude", "latitude"), ("lng", "lat"), ("lon_deg", "lat_degrees")):
         mesh = Delaunay.from_dataframe(pandas.DataFrame({"t": 1.0, names[0]: lon, names[1]: lat}, index=index))
         assert np.array_equal(mesh.points, xyz) and list(mesh.labels) == index, names
+    for names in ("clon", "clat"), ("nav_lon", "nav_lat"), ("lon [deg]", "lat [deg]"), ("XLONG", "XLAT"):
+        assert np.array_equal(Delaunay.from_dataframe(pandas.DataFrame({names[0]: lon, names[1]: lat})).points, xyz), names
+    header = pandas.DataFrame({"lon [rad]": np.radians(lon), "lat [rad]": np.radians(lat)})
+    assert np.allclose(Delaunay.from_dataframe(header).points, xyz, rtol=0, atol=1e-15)
+    with pytest.raises(ValueError, match=r"in the index: pass table.reset_index\(\)"):
+        Delaunay.from_dataframe(pandas.DataFrame({"lon": lon, "lat": lat, "t": 1}).set_index(["lon", "lat"]))
+    with pytest.raises(pstripack.BadCoordinateError, match="node 2 "):
+        Delaunay.from_dataframe(pandas.DataFrame({"lon": lon, "lat": pandas.array([1, 2, None, 4, 5], "Float64")}))
     radians = pandas.DataFrame({"lat_rad": np.radians(lat), "lon_rad": np.radians(lon)})
     assert np.allclose(Delaunay.from_dataframe(radians).points, xyz, rtol=0, atol=1e-15)
     assert np.array_equal(Delaunay.from_dataframe(pandas.DataFrame(xyz, columns=list("xyz"))).points, xyz)
@@ -87,15 +95,92 @@ def test_nodes_are_found_in_the_columns_of_a_table():
         Delaunay.from_dataframe(pandas.DataFrame({"lon": lon, "lat": [1, 2, np.nan, 4, 5]}))
 
 
-def test_values_of_another_order_are_refused():
+def ways_in(mesh):
+    """Each way to pass values, and the numbers it made of them."""
+    everywhere = mesh.points
+    ways = {"interpolate": lambda v: mesh.interpolate(v, everywhere), "nearest": lambda v: mesh.interpolate(v, everywhere, "nearest"),
+            "cubic": lambda v: mesh.interpolate(v, everywhere, "cubic"), "gradient": mesh.gradient,
+            "gradient_lonlat": lambda v: np.array(mesh.gradient_lonlat(v))}
+    for name, package in ("xarray", "xarray"), ("geodataframe", "geopandas"), ("plot", "matplotlib"):
+        try:
+            __import__(package)
+        except ImportError:
+            continue
+        ways[name] = {"xarray": lambda v: mesh.to_xarray({"t": v})["t"].values, "plot": lambda v: np.sort(mesh.plot(v, "cells").get_array()),
+                      "geodataframe": lambda v: mesh.to_geodataframe(values={"t": v})["t"].to_numpy()}[name]
+    return ways
+
+
+def test_values_with_labels_enter_by_them(monkeypatch):
+    """In any order, and among others; in each way in."""
     pandas = pytest.importorskip("pandas")
-    pytest.importorskip("xarray")
-    table = pandas.DataFrame({"lon": [0, 120, 240, 0], "lat": [0, 0, 0, 90], "t": [1.0, 2, 3, 4]}, index=list("abcd"))
-    mesh = Delaunay.from_dataframe(table)
-    assert mesh.to_xarray(table["t"])["t"].values.tolist() == [1, 2, 3, 4]
-    with pytest.raises(ValueError, match=r"differs from that of the nodes: pass values.loc\[mesh.labels\]"):
-        mesh.to_xarray(table["t"][::-1])
-    assert mesh.to_xarray(table["t"][::-1].loc[mesh.labels])["t"].values.tolist() == [1, 2, 3, 4]
+    rng = np.random.default_rng(4)
+    labels = [f"G{k:03}" for k in range(30)]
+    table = pandas.DataFrame({"lon": rng.uniform(5, 15, 30), "lat": rng.uniform(45, 50, 30), "t": rng.normal(size=30)}, index=labels)
+    seen = []
+    monkeypatch.setattr(pstripack._delaunay, "globe", lambda mesh, values, *_: seen.append(values))
+    for mesh in Delaunay.from_dataframe(table), Delaunay.from_lonlat(table["lon"], table["lat"][::-1]), Delaunay.from_dataframe(table[::-1]):
+        t = table["t"].loc[mesh.labels]
+        more = pandas.concat([table["t"].sort_values(), pandas.Series({"other": 7.0})])
+        for name, way in {**ways_in(mesh), "globe": lambda v: mesh.globe(v) or seen[-1]}.items():
+            expected = way(t.to_numpy())
+            for values in t, t.sort_values(), more, t.sort_values().astype("Float64"):
+                assert np.array_equal(way(values), expected), name
+            with pytest.raises(ValueError, match="have no label 'G004', which is that of a node: .* values.to_numpy()"):
+                way(table["t"].drop("G004"))
+            with pytest.raises(ValueError, match="label 'G003' of the values is there twice"):
+                way(pandas.concat([t, t[["G003"]]]))
+            with pytest.raises(ValueError, match="one for each of 30 (nodes|cells)"):
+                way(np.zeros(29))
+        wide = pandas.DataFrame(rng.normal(size=(5, 30)), columns=labels).sort_index(axis=1, ascending=False)
+        assert np.array_equal(mesh.interpolate(wide.T, mesh.points), wide.T.loc[mesh.labels].to_numpy())
+        with pytest.raises(ValueError, match="pass values.T"):
+            mesh.interpolate(wide, mesh.points)
+    several = table.assign(name="x", lon=[*table["lon"][:29], table["lon"][3]], lat=[*table["lat"][:29], table["lat"][3]])
+    mesh = Delaunay.from_dataframe(several, duplicates="mean")
+    assert mesh.labels.tolist() == labels[:29]
+    assert mesh.interpolate(several["t"][::-1], mesh.points[3]) == pytest.approx(several["t"].iloc[[3, 29]].mean())
+
+
+def test_values_of_xarray_enter_by_their_dimension_and_labels():
+    xarray = pytest.importorskip("xarray")
+    labels = list("abcde")
+    data = xarray.Dataset({"t": (("time", "station"), np.arange(15.0).reshape(3, 5), {"units": "K", "long_name": "temperature"})},
+                          {"station": labels, "time": [1, 2, 3], "lon": ("station", [0.0, 100, 200, 300, 50]),
+                           "lat": ("station", [0.0, 10, -10, 60, -70])})
+    mesh = Delaunay.from_lonlat(data.lon, data.lat)
+    assert list(mesh.labels) == labels
+    for values in data.t, data.t[:, ::-1], data.t.T:
+        assert np.array_equal(mesh.interpolate(values, mesh.points[2]), [2, 7, 12])
+        made = mesh.to_xarray(values)
+        assert made["t"].dims == ("mesh_nodes", "time") and made["t"].attrs["units"] == "K" and made["t"].attrs["long_name"] == "temperature"
+        assert np.array_equal(made["t"].sel(mesh_nodes="c"), [2, 7, 12]) and made["time"].values.tolist() == [1, 2, 3]
+    assert set(mesh.to_xarray(data[["t"]]).data_vars) == {"t", "mesh", "mesh_face_nodes"}
+    with pytest.raises(ValueError, match="a Dataset: pass one of its variables: 't'"):
+        mesh.interpolate(data, mesh.points)
+    field = xarray.DataArray(np.zeros((4, 4)), {"lat": [0, 10, 20, 30], "lon": [0, 10, 20, 30]}, ("lat", "lon"))
+    with pytest.raises(ValueError, match=r"longitudes \('lon',\) \(4,\) and latitudes \('lat',\) \(4,\) do not fit.*meshgrid"):
+        Delaunay.from_lonlat(field.lon, field.lat)
+    with pytest.raises(TypeError, match="a table with columns is needed, not Dataset"):
+        Delaunay.from_dataframe(data)
+
+
+def test_a_mesh_comes_back_from_a_dataset(tmp_path):
+    xarray = pytest.importorskip("xarray")
+    pandas = pytest.importorskip("pandas")
+    rng = np.random.default_rng(5)
+    table = pandas.DataFrame({"lon": rng.uniform(5, 15, 30), "lat": rng.uniform(45, 50, 30)}, index=pandas.Index([f"G{k}" for k in range(30)], name="gauge"))
+    for mesh in Delaunay.from_dataframe(table), Delaunay(3 * random_nodes(40)):
+        for what in "triangles", "cells":
+            mesh.to_xarray({"t": np.arange(mesh.npoints)}, what).to_netcdf(tmp_path / "mesh.nc")
+            with xarray.open_dataset(tmp_path / "mesh.nc") as read:
+                back = Delaunay.from_xarray(read)
+                assert what == "cells" or read["mesh_face_nodes"].dtype == np.int32
+                assert np.array_equal(back.interpolate(read["t"], mesh.points), np.arange(mesh.npoints))
+            assert np.array_equal(back.points, mesh.points)
+            assert back.labels is mesh.labels or (back.labels.equals(mesh.labels) and back.labels.name == "gauge")
+    with pytest.raises(ValueError, match="no mesh_node_x"):
+        Delaunay.from_xarray(xarray.Dataset())
 
 
 def check_ugrid(ds):
@@ -125,9 +210,10 @@ def check_ugrid(ds):
     rows = faces.values
     if rows.dtype.kind == "f":  # as xarray reads integers with a _FillValue
         rows = np.where(np.isnan(rows), fill, rows).astype(int)
+    assert fill in (None, -1) and (fill == -1 or rows.dtype == np.int32)  # without it triangles stay integers in xarray
     given = [row[row != fill] - start for row in rows]
-    assert fill == -1 and all(len(row) >= 3 and np.array_equal(np.flatnonzero(all_ != fill), np.arange(len(row)))
-                              for row, all_ in zip(given, rows))  # fill values only in the end
+    assert all(len(row) >= 3 and np.array_equal(np.flatnonzero(all_ != fill), np.arange(len(row)))
+               for row, all_ in zip(given, rows))  # fill values only in the end
     return places, given
 
 
@@ -231,6 +317,13 @@ def test_the_index_of_a_table_is_that_of_its_cells():
     pytest.importorskip("geopandas")
     table = pandas.DataFrame({"lon": [0, 120, 240, 0], "lat": [0, 0, 0, 90]}, index=list("abcd"))
     mesh = Delaunay.from_dataframe(table)
+    given = mesh.to_geodataframe(values={"area_km2": table["lat"][::-1], "geometry": list("wxyz")})
+    assert given["area_km2_given"].tolist() == table["lat"].tolist() and given["geometry_given"].tolist() == list("wxyz")
+    for wrong in table, "cell":
+        with pytest.raises(ValueError, match="what must be 'triangles' or 'cells'"):
+            mesh.to_geodataframe(wrong)
+    with pytest.raises(ValueError, match="the kind of faces is passed as what='cells'"):
+        mesh.plot("cells")
     joined = table.join(mesh.to_geodataframe())
     assert joined["area_km2"].sum() == pytest.approx(4 * np.pi * EARTH**2) and list(joined.index) == list("abcd")
 

@@ -436,61 +436,6 @@ Edges edges_of(const Faces& faces) {
 
 namespace {
 
-/// x / sin(x) - 1 for the angle x between two unit vectors: below 0.2 by its series.
-double over_sine_minus_1(const Point& p, const Point& q) {
-  const double sine = length(cross(p, minus(q, p))), x = std::atan2(sine, dot(p, q)), square = x * x;
-  if (x > 0.2) return x / sine - 1;
-  double sum = 0;
-  for (const double term : {8191.0 / 37362124800, 1414477.0 / 653837184000, 73.0 / 3421440, 127.0 / 604800,
-                            31.0 / 15120, 7.0 / 360, 1.0 / 6})
-    sum = (sum + term) * square;
-  return sum;
-}
-
-/// The centroid of a polygon: the direction of the integral of p over it, which is half the sum over its
-/// sides, from p to q, of their length in the direction of p x q. Differences from the first corner g, in a
-/// frame with g upwards, keep the digits of small and of thin polygons: with p = g + d and q = g + e the
-/// sides add (length / sine of length) (d x e + g x (e - d)), and the sum of all e - d is 0.
-template <class PointAt>
-Point centroid(std::size_t corners, const PointAt& point) {
-  const Point g = point(0), east = unit(cross(std::fabs(g.z) < 0.9 ? Point{0, 0, 1} : Point{1, 0, 0}, g)),
-              north = cross(g, east);
-  const auto in_frame = [&](const Point& p) -> Point {
-    const Point d = minus(p, g);
-    return {dot(d, east), dot(d, north), -dot(d, d) / 2};
-  };
-  Point sum{0, 0, 0}, p = g;
-  for (std::size_t k = 0; k < corners; ++k) {
-    const Point q = point((k + 1) % corners), d = in_frame(p), e = in_frame(q), twice = cross(d, e);
-    const double more = over_sine_minus_1(p, q);
-    sum = {sum.x + (1 + more) * twice.x - more * (e.y - d.y),
-           sum.y + (1 + more) * twice.y + more * (e.x - d.x), sum.z + (1 + more) * twice.z};
-    p = q;
-  }
-  const Point moment{sum.x * east.x + sum.y * north.x + sum.z * g.x,
-                     sum.x * east.y + sum.y * north.y + sum.z * g.y,
-                     sum.x * east.z + sum.y * north.z + sum.z * g.z};
-  const Point centre = unit(moment);
-  return std::isfinite(centre.x + centre.y + centre.z) ? centre : g;  // all corners are one
-}
-
-}  // namespace
-
-std::vector<Point> centroids(const Faces& faces) {
-  std::vector<Point> centres(faces.size());
-  pstripack::parallel_pieces(
-      centres.size(), pstripack::threads_for(8 * centres.size()),
-      [&](std::size_t first, std::size_t last, int) {
-        for (std::size_t f = first; f < last; ++f)
-          centres[f] = centroid(faces.corners(f), [&](std::size_t k) {
-            return faces.points[static_cast<std::size_t>(faces.corner[faces.begin[f] + k]) - 1];
-          });
-      });
-  return centres;
-}
-
-namespace {
-
 /// Each area is right to 128 * 2^-53 of itself, and so is their sum but for the rounding of n - 1 additions.
 void expect_whole_sphere(const std::vector<double>& areas) {
   constexpr double kSphere = 12.566370614359172, u = 0x1p-53;
@@ -537,15 +482,27 @@ void add_corners(Faces& cells, const Mesh& mesh, const pstripack::Directions& di
   cells.points.resize(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) cells.points[i] = {x[i], y[i], z[i]};
   cells.corner.reserve(listc.size());
+  std::vector<std::int32_t> beyond;  // of each corner: the node across the side that ends there
+  beyond.reserve(listc.size());
   for (std::size_t node = 0; node < n; ++node) {
     const std::int32_t last = mesh.lend[node];
     std::int32_t slot = last;
     do {
       slot = lptr[static_cast<std::size_t>(slot) - 1];
-      cells.corner.push_back(listc[static_cast<std::size_t>(slot) - 1]);
+      const auto s = static_cast<std::size_t>(slot) - 1;
+      cells.corner.push_back(listc[s]);
+      if (slot < mesh.lnew) {
+        beyond.push_back(std::abs(mesh.list[s]));
+        continue;
+      }
+      // On the far side: the corner after this node in the triangle on the left of the arc.
+      const std::int32_t* const column = ltri.data() + 6 * (static_cast<std::size_t>(listc[s]) - 1);
+      const auto here = std::find(column, column + 3, static_cast<std::int32_t>(node) + 1) - column;
+      beyond.push_back(column[(here + 1) % 3]);
     } while (slot != last);
     cells.begin[node + 1] = cells.corner.size();
   }
+  find_half_turns(cells, beyond.data(), directions);
 }
 
 }  // namespace

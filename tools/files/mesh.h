@@ -9,6 +9,7 @@
 
 #include "files/measures.h"
 #include "files/nodes.h"
+#include "geometry/predicates.h"
 #include "lists/adjacency_lists.h"
 #include "trmesh/trmesh.h"
 
@@ -86,6 +87,13 @@ std::vector<Point> unit(const std::vector<Point>& points);
 std::vector<Point> circumcentres(const std::vector<Point>& points,
                                  const std::vector<std::int32_t>& triangles);
 
+/// A side of a Voronoi cell so near to half a turn that its rounded ends do not tell its plane.
+struct HalfTurn {
+  std::size_t face;
+  std::int32_t from, to;  ///< its corners
+  Point normal;           ///< the unit vector on the side of the cell's node
+};
+
 /// Polygons on the unit sphere: face f has the corners corner[begin[f]] ... corner[begin[f+1]-1],
 /// counterclockwise.
 struct Faces {
@@ -96,6 +104,7 @@ struct Faces {
   std::vector<std::int32_t> corner;
   std::vector<double>
       area;  ///< of triangles and whole cells, in steradians, from their nodes; NaN: not known
+  std::vector<HalfTurn> half_turns;    ///< in increasing order of faces
   LonLat given_points, given_centres;  ///< their longitudes and latitudes, if the input had them
   Columns columns_of_points, columns_of_faces;
   Columns columns_of_parts;  ///< of faces cut at polygons: add_columns() makes them columns of the faces
@@ -116,8 +125,12 @@ struct Edges {
 };
 Edges edges_of(const Faces& faces);
 
+/// Gives the Voronoi cells of these nodes, with all their corners, their half turns. beyond[k]: the node,
+/// from 1, across the side that ends at cells.corner[k].
+void find_half_turns(Faces& cells, const std::int32_t* beyond, const pstripack::Directions& nodes);
+
 /// The centroid of each face: the direction of the integral of p over it. Right to 1e-15 rad for each unit of
-/// the face's length over its width, if no side is nearly a half turn.
+/// the face's length over its width, if sides of nearly half a turn are in faces.half_turns.
 std::vector<Point> centroids(const Faces& faces);
 
 /// The areas of the faces in steradians; from their corners, where faces.area does not know them.

@@ -12,20 +12,20 @@
 namespace methods {
 namespace {
 
-/// The normal equations of a least-squares fit with K functions: sums of their weighted products with each
-/// other and with the values.
+/// A least-squares fit with K functions.
 template <int K>
 class LeastSquares {
  public:
-  void add(const std::array<double, K>& f, double value, double weight) {
-    for (int i = 0; i < K; ++i) {
+  using Numbers = std::array<double, K>;
+
+  void add(const Numbers& f, double weight) {
+    for (int i = 0; i < K; ++i)
       for (int j = 0; j <= i; ++j) matrix_[i][j] += weight * f[i] * f[j];
-      right_[i] += weight * f[i] * value;
-    }
   }
 
-  /// The coefficients, by Cholesky's method. False if the nodes do not determine them.
-  bool solve(std::array<double, K>& x) {
+  /// After all functions are added: Cholesky's factors of the normal equations. False if the nodes do not
+  /// determine the coefficients.
+  bool factor() {
     constexpr double kLeast = 1e-9;  // least pivot, relative to its diagonal element
     for (int i = 0; i < K; ++i) {
       const double diagonal = matrix_[i][i];
@@ -40,8 +40,14 @@ class LeastSquares {
         }
       }
     }
+    return true;
+  }
+
+  /// The coefficients. `right`: the sums of products of the functions, values and weights.
+  Numbers solve(const Numbers& right) const {
+    Numbers x;
     for (int i = 0; i < K; ++i) {
-      x[i] = right_[i];
+      x[i] = right[i];
       for (int k = 0; k < i; ++k) x[i] -= matrix_[i][k] * x[k];
       x[i] /= matrix_[i][i];
     }
@@ -49,11 +55,11 @@ class LeastSquares {
       for (int k = i + 1; k < K; ++k) x[i] -= matrix_[k][i] * x[k];
       x[i] /= matrix_[i][i];
     }
-    return true;
+    return x;
   }
 
  private:
-  double matrix_[K][K] = {}, right_[K] = {};  // the lower triangle
+  double matrix_[K][K] = {};  // the lower triangle
 };
 
 /// Two perpendicular tangents at p.
@@ -78,67 +84,209 @@ void two_rings(const pstripack::ListReader<std::int32_t>& reader, std::int32_t n
   rings.erase(std::find(rings.begin(), rings.end(), node));
 }
 
-}  // namespace
-
-std::vector<Point> gradients(const Triangulated& mesh, const std::vector<double>& values) {
-  const pstripack::ListReader<std::int32_t> reader(mesh.lists);
-  const auto index = [](std::int32_t node) { return static_cast<std::size_t>(node) - 1; };
-  std::vector<pstripack::UnitVector> unit(values.size());
+std::vector<pstripack::UnitVector> unit_vectors_of(const Triangulated& mesh) {
+  std::vector<pstripack::UnitVector> unit(mesh.lists.n);
   pstripack::parallel_pieces(unit.size(), pstripack::threads_for(unit.size()),
                              [&](std::size_t first, std::size_t last, int) {
                                for (std::size_t i = first; i < last; ++i)
                                  unit[i] = pstripack::unit_vector(mesh.at(static_cast<std::int32_t>(i) + 1));
                              });
-  struct Around {
-    std::vector<std::int32_t> rings;
-    std::vector<Point> sides;  // from the node to these
-  };
-  const auto gradient = [&](std::int32_t node, Around& around) {
-    auto& [rings, sides] = around;
-    const pstripack::Direction p{unit[index(node)], mesh.at(node)};
-    const std::array<Point, 2> tangent = tangents(p.high);
-    two_rings(reader, node, rings);
+  return unit;
+}
+
+/// What the gradient at a node is for any values around it.
+class Fit {
+ public:
+  Fit(const Triangulated& mesh, const std::vector<pstripack::UnitVector>& unit) : mesh_(mesh), unit_(unit) {}
+
+  /// Prepares the fit at a node.
+  void at(std::int32_t node) {
+    const auto index = [](std::int32_t i) { return static_cast<std::size_t>(i) - 1; };
+    const pstripack::Direction p{unit_[index(node)], mesh_.at(node)};
+    tangent_ = tangents(p.high);
+    two_rings(pstripack::ListReader<std::int32_t>(mesh_.lists), node, rings_);
+    places_.clear();
+    std::vector<Point>& sides = sides_;
     sides.clear();
     double longest = 0;  // squared
-    for (const std::int32_t other : rings) {
-      Point d = difference(unit[index(other)], p);
-      if (dot(d, d) < 0x1p-90) d = accurate_difference(mesh.direction(other), p);
+    for (const std::int32_t other : rings_) {
+      Point d = difference(unit_[index(other)], p);
+      if (dot(d, d) < 0x1p-90) d = accurate_difference(mesh_.direction(other), p);
       sides.push_back(d);
       longest = std::max(longest, dot(d, d));
     }
-    const double scale = std::sqrt(longest);
-    LeastSquares<5> quadratic;
-    LeastSquares<2> linear;
-    for (std::size_t k = 0; k < rings.size(); ++k) {
-      const Point& d = sides[k];
-      const double u = dot(d, tangent[0]) / scale, v = dot(d, tangent[1]) / scale;
-      const double weight = longest / dot(d, d);
-      const double value = values[index(rings[k])] - values[index(node)];
-      quadratic.add({u, v, u * u, u * v, v * v}, value, weight);
-      linear.add({u, v}, value, weight);
+    scale_ = std::sqrt(longest);
+    for (const Point& d : sides)
+      places_.push_back({dot(d, tangent_[0]) / scale_, dot(d, tangent_[1]) / scale_, longest / dot(d, d)});
+    quadratic_ = {}, linear_ = {};
+    for (const Place& at : places_) {
+      quadratic_.add(quadratic(at), at.weight);
+      linear_.add(linear(at), at.weight);
     }
-    std::array<double, 5> five{};
-    std::array<double, 2> two{};
-    if (rings.size() > 5 && quadratic.solve(five))
-      two = {five[0], five[1]};
-    else if (!linear.solve(two))
-      two = {0, 0};
-    const double u = two[0] / scale, v = two[1] / scale;
-    return Point{u * tangent[0].x + v * tangent[1].x, u * tangent[0].y + v * tangent[1].y,
-                 u * tangent[0].z + v * tangent[1].z};
+    if (find_curve()) return;
+    kind_ = rings_.size() > 5 && quadratic_.factor() ? Kind::quadratic : Kind::linear;
+    if (kind_ == Kind::linear) linear_.factor();
+  }
+
+  /// Of the last node: its neighbours and their neighbours.
+  const std::vector<std::int32_t>& nodes() const { return rings_; }
+
+  /// The gradient, if the value at nodes()[k] exceeds that of the node itself by excess(k).
+  template <class Excess>
+  Point gradient(const Excess& excess) const {
+    double u, v;
+    if (kind_ == Kind::quadratic) {
+      const auto x = quadratic_.solve(sums<5>(quadratic, excess));
+      u = x[0], v = x[1];
+    } else if (kind_ == Kind::linear) {
+      const auto x = linear_.solve(sums<2>(linear, excess));
+      u = x[0], v = x[1];
+    } else {
+      const double slope = along(excess) / (1 + turn_ * turn_);
+      u = slope * (axis_[0] - turn_ * axis_[1]), v = slope * (axis_[1] + turn_ * axis_[0]);
+    }
+    u /= scale_, v /= scale_;
+    return {u * tangent_[0].x + v * tangent_[1].x, u * tangent_[0].y + v * tangent_[1].y,
+            u * tangent_[0].z + v * tangent_[1].z};
+  }
+
+ private:
+  enum class Kind { curve, line, linear, quadratic };
+  struct Place {
+    double u, v, weight;
+    double arc = 1;  // of nodes on a curve, which may be far away: length of the arc over its sine
   };
-  std::vector<Point> result(values.size());
-  const int threads = pstripack::threads_for(100 * result.size());
+  static std::array<double, 5> quadratic(const Place& p) {
+    return {p.u, p.v, p.u * p.u, p.u * p.v, p.v * p.v};
+  }
+  static std::array<double, 2> linear(const Place& p) { return {p.u, p.v}; }
+  double along_axis(const Place& p) const { return p.arc * (axis_[0] * p.u + axis_[1] * p.v); }
+  double across_axis(const Place& p) const { return p.arc * (axis_[0] * p.v - axis_[1] * p.u); }
+
+  template <int K, class Functions, class Value>
+  std::array<double, K> sums(const Functions& functions, const Value& value) const {
+    std::array<double, K> right{};
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      const std::array<double, K> f = functions(places_[k]);
+      for (int i = 0; i < K; ++i) right[i] += places_[k].weight * f[i] * value(k);
+    }
+    return right;
+  }
+
+  /// The slope along the axis of the line or parabola that fits value(k) best.
+  template <class Value>
+  double along(const Value& value, double* bend = nullptr) const {
+    if (bend != nullptr) *bend = 0;
+    if (kind_ == Kind::line) {
+      const auto one = sums<1>([&](const Place& p) { return std::array{along_axis(p)}; }, value);
+      return one[0] / spread_;
+    }
+    const auto x = on_curve_.solve(sums<2>([&](const Place& p) { return parabola(p); }, value));
+    if (bend != nullptr) *bend = x[1];
+    return x[0];
+  }
+  std::array<double, 2> parabola(const Place& p) const {
+    const double t = along_axis(p);
+    return {t, t * t};
+  }
+
+  /// True if the nodes lie on a curve through the node, across = turn * along + bend * along^2 in the
+  /// principal axes, up to 3e-5 of their distances. What they do not determine is the slope across it.
+  bool find_curve() {
+    constexpr double kMostAcross = 1e-9;  // squared, relative
+    double uu = 0, uv = 0, vv = 0, across = 0;
+    for (const Place& p : places_)
+      uu += p.weight * p.u * p.u, uv += p.weight * p.u * p.v, vv += p.weight * p.v * p.v;
+    const double angle = 0.5 * std::atan2(2 * uv, uu - vv);
+    axis_ = {std::cos(angle), std::sin(angle)};
+    spread_ = 0;
+    for (const Place& p : places_) {
+      spread_ += p.weight * along_axis(p) * along_axis(p);
+      across += p.weight * across_axis(p) * across_axis(p);
+    }
+    if (across > 0.1 * spread_) return false;
+    spread_ = 0;
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      Place& p = places_[k];
+      const double sine = scale_ * std::sqrt(p.u * p.u + p.v * p.v);
+      if (sine > 1e-4) p.arc = 2 * std::asin(std::min(1.0, std::sqrt(dot(sides_[k], sides_[k])) / 2)) / sine;
+      spread_ += p.weight * along_axis(p) * along_axis(p);
+    }
+    on_curve_ = {};
+    for (const Place& p : places_) on_curve_.add(parabola(p), p.weight);
+    kind_ = places_.size() > 3 && on_curve_.factor() ? Kind::curve : Kind::line;
+    double bend;
+    turn_ = along([&](std::size_t k) { return across_axis(places_[k]); }, &bend);
+    double beside = 0;
+    for (const Place& p : places_) {
+      const double t = along_axis(p), d = across_axis(p) - t * (turn_ + t * bend);
+      beside += p.weight * d * d;
+    }
+    return beside <= kMostAcross * spread_;
+  }
+
+  const Triangulated& mesh_;
+  const std::vector<pstripack::UnitVector>& unit_;
+  std::array<Point, 2> tangent_{};
+  std::vector<std::int32_t> rings_;
+  std::vector<Point> sides_;   // from the node to these
+  std::vector<Place> places_;  // the same in the tangents, over scale_
+  double scale_ = 1;
+  Kind kind_ = Kind::linear;
+  LeastSquares<5> quadratic_;
+  LeastSquares<2> linear_, on_curve_;
+  std::array<double, 2> axis_{};  // principal axis of the places
+  double spread_ = 0, turn_ = 0;  // along it
+};
+
+/// Calls use(node, fit) for all nodes, from 1, on threads.
+template <class Use>
+void for_each_fit(const Triangulated& mesh, const Use& use) {
+  const std::vector<pstripack::UnitVector> unit = unit_vectors_of(mesh);
+  const int threads = pstripack::threads_for(100 * unit.size());
   pstripack::ErrorsOfThreads errors(static_cast<std::size_t>(threads));
-  pstripack::parallel_pieces(result.size(), threads, [&](std::size_t first, std::size_t last, int piece) {
+  pstripack::parallel_pieces(unit.size(), threads, [&](std::size_t first, std::size_t last, int piece) {
     errors.keep(static_cast<std::size_t>(piece), [&] {
-      Around around;
-      for (std::size_t i = first; i < last; ++i)
-        result[i] = gradient(static_cast<std::int32_t>(i) + 1, around);
+      Fit fit(mesh, unit);
+      for (auto i = first; i < last; ++i) {
+        fit.at(static_cast<std::int32_t>(i) + 1);
+        use(i, fit);
+      }
     });
   });
   errors.rethrow();
+}
+
+}  // namespace
+
+std::vector<Point> gradients(const Triangulated& mesh, const NodeValues& values) {
+  std::vector<Point> result(mesh.lists.n * values.columns);
+  for_each_fit(mesh, [&](std::size_t i, const Fit& fit) {
+    for (std::size_t column = 0; column < values.columns; ++column) {
+      const auto value = [&](std::size_t node) { return values.first[node * values.stride + column]; };
+      result[i * values.columns + column] = fit.gradient(
+          [&](std::size_t k) { return value(static_cast<std::size_t>(fit.nodes()[k]) - 1) - value(i); });
+    }
+  });
   return result;
+}
+
+GradientTerms gradient_terms(const Triangulated& mesh) {
+  GradientTerms all;
+  all.begin.resize(mesh.lists.n + 1);
+  std::vector<std::int32_t> rings;
+  const pstripack::ListReader<std::int32_t> reader(mesh.lists);
+  for (std::size_t i = 0; i < mesh.lists.n; ++i) {
+    two_rings(reader, static_cast<std::int32_t>(i) + 1, rings);
+    all.begin[i + 1] = all.begin[i] + rings.size();
+  }
+  all.terms.resize(all.begin.back());
+  for_each_fit(mesh, [&](std::size_t i, const Fit& fit) {
+    for (std::size_t k = 0; k < fit.nodes().size(); ++k)
+      all.terms[all.begin[i] + k] = {fit.nodes()[k],
+                                     fit.gradient([&](std::size_t other) { return other == k ? 1.0 : 0.0; })};
+  });
+  return all;
 }
 
 }  // namespace methods

@@ -380,25 +380,47 @@ std::int32_t Interpolation::nearest(const Point& p, std::int32_t near) const {
   return descend(order, node).node;
 }
 
+void Interpolation::cubic_terms(const Point& p, std::vector<Share>& shares, std::vector<Point>& ways) const {
+  const Direction place = pstripack::direction_of(p);
+  const Direction* const known = directions();
+  double inverse = 0, first = 0, second = 0;
+  ways.clear();
+  for (const auto& [node, part] : shares) {
+    const Point d = accurate_difference(place, known[node]);
+    const double distance_2 = dot(d, d), distance = std::sqrt(distance_2);
+    inverse += part / distance;
+    first += part * distance;
+    second += part * distance_2;
+    ways.push_back(d);
+  }
+  if (shares.size() == 1) {  // the place is the node
+    ways[0] = {0, 0, 0};
+    return;
+  }
+  const double alpha = first / inverse, of_means = alpha / (alpha + second),
+               of_planes = second / (alpha + second);
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    double& part = shares[k].part;
+    Point& d = ways[k];
+    const double on_plane = of_planes * (part / std::sqrt(dot(d, d)) / inverse);
+    part = of_means * part + on_plane;
+    d = {on_plane * d.x, on_plane * d.y, on_plane * d.z};
+  }
+}
+
 double Interpolation::cubic_value(const Point& p, const std::vector<Share>& shares,
                                   const std::vector<double>& values,
                                   const std::vector<Point>& gradients) const {
-  const Direction place = pstripack::direction_of(p);
-  const Direction* const known = directions();
-  double mean = 0, inverse = 0, tangent = 0, first = 0, second = 0;
-  for (const auto& [node, part] : shares) {
-    const auto i = static_cast<std::size_t>(node) - 1;
-    if (part == 1) return values[i];  // the place is the node
-    const Point d = accurate_difference(place, known[node]);
-    const double distance_2 = dot(d, d), distance = std::sqrt(distance_2);
-    mean += part * values[i];
-    inverse += part / distance;
-    tangent += part / distance * (values[i] + dot(gradients[i], d));
-    first += part * distance;
-    second += part * distance_2;
+  if (shares.size() == 1) return values[static_cast<std::size_t>(shares[0].node) - 1];
+  std::vector<Share> terms = shares;
+  std::vector<Point> ways;
+  cubic_terms(p, terms, ways);
+  double sum = 0;
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    const auto i = static_cast<std::size_t>(terms[k].node) - 1;
+    sum += terms[k].part * values[i] + dot(ways[k], gradients[i]);
   }
-  const double alpha = first / inverse;
-  return (alpha * mean + second * (tangent / inverse)) / (alpha + second);
+  return sum;
 }
 
 template <class Use>

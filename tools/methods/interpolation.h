@@ -72,6 +72,8 @@ class Interpolation {
   /// Its gradient is continuous, and is that of the node at each node. It may leave the range of the values.
   double cubic_value(const Point& p, const std::vector<Share>& shares, const std::vector<double>& values,
                      const std::vector<Point>& gradients) const;
+  /// The same as a sum over the shares, which get other parts: part * v + way.g of each.
+  void cubic_terms(const Point& p, std::vector<Share>& shares, std::vector<Point>& ways) const;
 
   /// `nearest` has the value of the nearest node, at all places.
   enum class Method { linear, natural, cubic, nearest };

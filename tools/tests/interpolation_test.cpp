@@ -208,6 +208,27 @@ TEST(gradients, are_those_of_a_quadratic_and_zero_where_nodes_determine_none) {
     EXPECT_EQ(slope, (Point{0, 0, 0}));
 }
 
+// Nodes along a meridian, up to rounding or some metres: they tell the slope along it only.
+TEST(gradients, are_along_the_line_of_nodes_that_lie_on_one) {
+  for (const double turn : {0.0, 0.3, 1.0, 1.5707963267948966})
+    for (const double aside : {1e-15, 1e-6}) {
+      Points nodes;
+      std::vector<double> values;
+      const Point east{-std::sin(turn), std::cos(turn), 0};
+      for (int k = 0; k < 17; ++k) {
+        const double lat = (5 * k - 20) / files::kRadian, by = aside * (k * k % 5);
+        nodes.push_back({std::cos(lat) * std::cos(turn) + by * east.x,
+                         std::cos(lat) * std::sin(turn) + by * east.y, std::sin(lat)});
+        values.push_back(28 + 3 * lat);
+      }
+      const std::vector<Point> slopes = gradients(TriangulatedNodes(nodes).view(), values);
+      for (std::size_t k = 0; k < 17; ++k) {
+        EXPECT_NEAR(dot(slopes[k], cross(nodes[k], east)), 3, 1e-5) << turn << ' ' << aside << ' ' << k;
+        EXPECT_NEAR(dot(slopes[k], east), 0, 1e-4) << turn << ' ' << aside << ' ' << k;
+      }
+    }
+}
+
 std::vector<double> cell_areas(const Points& nodes) {
   const files::Faces cells = files::voronoi_faces(files::triangulate(nodes));
   std::vector<double> areas(cells.size());

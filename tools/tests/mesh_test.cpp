@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "files/map_rings.h"
 #include "lists/adjacency_lists.h"
 #include "point_sets.h"
 
@@ -168,6 +169,25 @@ TEST(centroids, of_large_thin_and_tiny_polygons) {
   const Faces tiny = polygon({{1, 0, 0}, {1, 3 * kSize, 0}, {1, 0, 3e-3 * kSize}});
   EXPECT_LT(distance(centroids(tiny)[0], {1, kSize, 1e-3 * kSize}), 1e-12 * kSize);
   EXPECT_EQ(centroids(polygon({west, west, west}))[0], west);
+}
+
+// Its sides are half turns, of which the ends do not tell the planes.
+TEST(centroids, of_the_cells_of_three_nodes) {
+  const std::vector<Point> nodes{{-2.7930614170300177e-05, 0.0013995585012127033, 1},
+                                 {-0.0002689079324440259, 0.0031121462148417313, 1},
+                                 {0.006287430128574454, -0.007060629239114831, 1}};
+  const Mesh mesh = triangulate(nodes);
+  Faces cells = voronoi_faces(mesh);
+  const auto centres = centroids(cells);
+  divide_half_turns(cells, mesh.lists());
+  const auto of_divided = centroids(cells);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Point sum = minus(unit(minus(unit(nodes[k]), unit(nodes[(k + 1) % 3]))),
+                            unit(minus(unit(nodes[(k + 2) % 3]), unit(nodes[k]))));
+    EXPECT_LT(length(minus(centres[k], unit(sum))), 1e-12);
+    EXPECT_LT(length(minus(centres[k], of_divided[k])), 1e-13);
+  }
+  EXPECT_NEAR(longitude(centres[1]), 110.405452, 1e-6);
 }
 
 TEST(voronoi_faces, have_corners_as_far_from_their_node_as_from_the_neighbours) {

@@ -20,12 +20,32 @@ def unmasked(numbers: Any) -> NDArray[Any]:
     return np.asarray(numbers)
 
 
-def real(numbers: Any) -> NDArray[Any]:
-    """The numbers as an array; refused if they are masked or complex: float64 has no imaginary parts."""
+def real(numbers: Any, what: str = "value") -> NDArray[Any]:
+    """The numbers as an array; refused if they are masked, or complex: float64 has no imaginary parts. ``what`` names one
+    of them in messages."""
     array = unmasked(numbers)
     if np.iscomplexobj(array):
         raise TypeError("the numbers are complex: real numbers are needed")
-    return array
+    if array.dtype.kind in "mM":
+        raise TypeError(f"each {what} is a date or a duration: numbers are needed")
+    return _parsed(array, what) if array.dtype.kind in "OSU" else array
+
+
+def _parsed(items: NDArray[Any], what: str) -> NDArray[Any]:
+    """Objects and texts as numbers; NaN for pandas' NA."""
+    try:
+        return items.astype(np.float64)
+    except (TypeError, ValueError):
+        numbers = np.empty(items.shape)
+    for index, item in np.ndenumerate(items):
+        try:
+            numbers[index] = np.nan if str(item) == "<NA>" else float(item)
+        except (TypeError, ValueError):
+            at = ", ".join(map(str, index))
+            remedy = ("read_csv(..., decimal=',') reads decimal commas" if isinstance(item, str) and "," in item else
+                      "pandas.to_numeric(column, errors='coerce') makes NaN of texts")
+            raise ValueError(f"{what} {at} (counted from 0) is {item!r}, not a number: {remedy}") from None
+    return numbers
 
 
 def _coordinates(vectors: Any) -> Any:
@@ -51,23 +71,33 @@ def place_array(places: ArrayLike) -> Floats:
     """The places as a C-contiguous array of shape (..., 3)."""
     array = np.require(real(_coordinates(places)), np.float64, ["A", "C"])
     if array.ndim < 1 or array.shape[-1] != 3:
-        raise ValueError(f"places must be an array of shape (..., 3): x, y, z of each; not {array.shape}")
+        raise ValueError(f"places must be an array of shape (..., 3): x, y, z of each; not {array.shape}; longitudes and "
+                         "latitudes are passed as lon=, lat=")
     return array
 
 
 def mesh_of(points: Floats, threshold: float, threads: int) -> _core.Mesh:
     """The mesh of nodes that are further than the threshold, in radians, from each other."""
-    if not threshold >= 0:
-        raise ValueError(f"threshold must be at least 0, in radians, not {threshold}")
+    in_radians("threshold", threshold)
     mesh = _core.Mesh(points, threads)
     if threshold > 0:
         distance, first, second = mesh.closest_pair(threads)
         angle = 2 * np.arcsin(min(distance / 2, 1))
         if angle <= threshold:
-            raise CoincidentNodesError(
+            error = CoincidentNodesError(
                 f"nodes {first} and {second} (counted from 0) are {angle:g} radians apart, within the threshold of "
                 f"{threshold:g}: remove one of them", (first, second))
+            error.coincide = False
+            raise error
     return mesh
+
+
+def in_radians(name: str, angle: float) -> None:
+    """Refuses an angle that cannot be one between two directions."""
+    if not angle >= 0:
+        raise ValueError(f"{name} must be at least 0, in radians, not {angle}")
+    if angle > np.pi * (1 + 1e-6):
+        raise ValueError(f"{name} is {angle:g}, more than pi: it is in radians; kilometres on the Earth are {angle:g} / 6371")
 
 
 def thread_count(threads: Optional[int]) -> int:
@@ -87,6 +117,11 @@ def read_only(array: NDArray[Any]) -> NDArray[Any]:
     view = array.view()
     view.flags.writeable = False
     return view
+
+
+def scalar(array: NDArray[Any]) -> Any:
+    """The array; its number if it has no dimension, as NumPy's functions return it."""
+    return array[()]
 
 
 def unit_vectors(points: Floats) -> Floats:
@@ -112,18 +147,34 @@ def to_xyz(lon: ArrayLike, lat: ArrayLike, degrees: bool = True) -> Floats:
 
 def vectors_of(lon: ArrayLike, lat: ArrayLike, degrees: bool, what: str) -> Floats:
     """to_xyz; ``what`` names a place in messages."""
+    fit_each_other(lon, lat)
     lon, lat = (angle if degrees or angle.dtype != np.float32 else _core.radians_of_single(angle)
-                for angle in (real(lon), real(lat)))
+                for angle in (real(lon, f"longitude of {what}"), real(lat, f"latitude of {what}")))
     lon, lat = np.broadcast_arrays(np.asarray(lon, np.float64), np.asarray(lat, np.float64))
     limit = 90.0 if degrees else np.pi / 2 * (1 + 1e-15)
     beyond = np.abs(lat) > limit
     if np.any(beyond):
         index = int(np.argmax(beyond))
         raise ValueError(f"latitude {lat.flat[index]:g} of {what} {index} (counted from 0) is beyond the pole: "
-                         "the arguments are longitudes, then latitudes"
-                         + ("" if degrees else ", in radians unless degrees=True"))
+                         + ("are these metres of a map projection? to_crs(4326) of geopandas makes degrees of them"
+                            if np.nanmax(np.abs(lat)) > 1000 else "the arguments are longitudes, then latitudes"
+                            + ("" if degrees else ", in radians unless degrees=True")))
     vectors = _core.vectors(np.ascontiguousarray(lon.ravel()), np.ascontiguousarray(lat.ravel()), degrees)
     return vectors.reshape(lon.shape + (3,)) + 0.0  # no -0.0
+
+
+def fit_each_other(lon: Any, lat: Any) -> None:
+    """Refuses axes of a grid in place of longitudes and latitudes of places."""
+    shapes, dims = [np.shape(angle) for angle in (lon, lat)], [getattr(angle, "dims", None) for angle in (lon, lat)]
+    try:
+        np.broadcast_shapes(*shapes)
+        if None in dims or () in dims or dims[0] == dims[1]:
+            return
+    except ValueError:
+        pass
+    lons, lats = (f"{given} {shape}" if given else str(shape) for given, shape in zip(dims, shapes))
+    raise ValueError(f"longitudes {lons} and latitudes {lats} do not fit each other; of the axes of a grid, "
+                     "lon, lat = numpy.meshgrid(lon, lat) makes places")
 
 
 def are_degrees(lon: NDArray[Any], lat: NDArray[Any], degrees: bool, units: Optional[str]) -> bool:

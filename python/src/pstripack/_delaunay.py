@@ -1,18 +1,29 @@
 """Delaunay triangulations on the sphere."""
+import hashlib
 import os
+import pickle
 from typing import Any, Dict, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arrays import Floats, Ints, are_degrees, mesh_of, node_array, read_only, real, thread_count, to_xyz
-from ._errors import BadCoordinateError
+from ._arrays import (Floats, Ints, are_degrees, fit_each_other, mesh_of, node_array, read_only, real, thread_count,
+                      to_xyz)
+from ._errors import BadCoordinateError, CoincidentNodesError
 from ._globe import Globe, globe, notebook_html
-from ._measures import Measures
+from ._measures import Measures, once
 from ._places import Places
 from ._presentation import Presentation
-from ._tables import coordinate_columns
+from ._tables import coordinate_columns, nodes_of_dataset
+from ._values import Rows, in_order_of, is_field
+
+
+def _labels_of(table: Any) -> Any:
+    """The labels of the rows of a table, a Series or a DataArray; None: it has none."""
+    if is_field(table):
+        return table.indexes.get(table.dims[0]) if table.ndim == 1 else None
+    return table.index if hasattr(table, "iloc") else None
 
 
 class Delaunay(Places, Measures, Presentation):
@@ -26,6 +37,10 @@ class Delaunay(Places, Measures, Presentation):
     threshold : float, optional
         Nodes this near to each other, in radians, are refused as if they coincided: 1.6e-10 is a millimetre on the
         Earth.
+    duplicates : {"error", "first", "mean"}
+        Nodes in exactly the same direction are refused; or they become one node, in the place of the first of them, which
+        has the values of the first or the mean of their values that are not NaN. Values may then have a row for each given
+        row, or for each node.
     threads : int, optional
         Number of threads for the triangulation and for all that is computed from it.
 
@@ -34,7 +49,8 @@ class Delaunay(Places, Measures, Presentation):
     BadCoordinateError, CoincidentNodesError, CollinearNodesError, TriangulationError
         All are ValueError; their attribute ``nodes`` has the indices of the nodes in question, counted from 0.
 
-    Names and conventions are those of scipy.spatial.Delaunay. Arrays are computed on first access.
+    Names and conventions are those of scipy.spatial.Delaunay. Arrays are computed on first access and read only: pass
+    ``mesh.simplices + 1`` or a copy to what changes them.
 
     >>> mesh = Delaunay.from_lonlat([0, 90, 180, 270, 0, 0], [0, 0, 0, 0, 90, -90])
     >>> mesh.simplices[:2]
@@ -50,25 +66,42 @@ class Delaunay(Places, Measures, Presentation):
     array([0, 4], dtype=int32)
     """
 
-    def __init__(self, points: ArrayLike, *, threshold: float = 0, threads: Optional[int] = None) -> None:
+    def __init__(self, points: ArrayLike, *, threshold: float = 0, duplicates: str = "error",
+                 threads: Optional[int] = None) -> None:
+        if duplicates not in ("error", "first", "mean"):
+            raise ValueError(f"duplicates must be 'error', 'first' or 'mean', not {duplicates!r}")
         self._threads = thread_count(threads)
-        self._mesh = mesh_of(node_array(points), threshold, self._threads)
+        array = node_array(points)
+        try:
+            self._mesh = mesh_of(array, threshold, self._threads)
+        except CoincidentNodesError as error:
+            if duplicates == "error" or not error.coincide:
+                raise
+            later = np.array(error.nodes).reshape(-1, 2)
+            is_node = np.ones(len(array), bool)
+            is_node[later[:, 1]] = False
+            node = np.cumsum(is_node, dtype=np.int32) - np.int32(1)
+            node[later[:, 1]] = node[later[:, 0]]
+            self._rows = Rows(None, node, duplicates == "mean")
+            self._mesh = mesh_of(array[is_node], threshold, self._threads)
         #: The nodes as given, read only.
         self.points: Floats = read_only(self._mesh.points)
         self._known: Dict[str, Any] = {}
-        self._simplices: Optional[Ints] = None
-        self._neighbors: Optional[Ints] = None
-        self._vertex_neighbors: Optional[Tuple[Ints, Ints]] = None
 
     @classmethod
     def from_lonlat(cls, lon: ArrayLike, lat: ArrayLike, *, degrees: bool = True, units: Optional[str] = None,
-                    threshold: float = 0, threads: Optional[int] = None) -> "Delaunay":
-        """The triangulation of nodes given by longitudes and latitudes; see :func:`to_xyz`.
+                    threshold: float = 0, duplicates: str = "error", threads: Optional[int] = None) -> "Delaunay":
+        """The triangulation of nodes given by longitudes and latitudes; see :func:`to_xyz`. The labels of a Series or
+        DataArray of longitudes become the attribute ``labels``; values then enter by them.
 
         ``units``: "degrees" or "radians". Without it: radians if ``degrees`` is false; else degrees, and a ValueError if
         no longitude is beyond 2 pi and no latitude beyond pi/2, since these may be radians.
         """
-        lon, lat = np.ravel(real(lon)), np.ravel(real(lat))
+        labels = _labels_of(lon)
+        if labels is not None and np.ndim(lat) == 1:
+            lat = in_order_of(labels, lat, len(labels))
+        fit_each_other(lon, lat)
+        lon, lat = np.ravel(real(lon, "longitude of node")), np.ravel(real(lat, "latitude of node"))
         in_degrees = are_degrees(lon, lat, degrees, units)
         points = to_xyz(lon, lat, in_degrees)
         wrong = np.isnan(points[:, 0])
@@ -77,27 +110,50 @@ class Delaunay(Places, Measures, Presentation):
             where = [float(np.broadcast_to(angle, len(points))[node]) for angle in (lon, lat)]
             raise BadCoordinateError(f"node {node} (counted from 0) is at longitude {where[0]:g}, latitude {where[1]:g}: "
                                      "both must be finite", (node,))
-        mesh = cls(points, threshold=threshold, threads=threads)
+        mesh = cls(points, threshold=threshold, duplicates=duplicates, threads=threads)
         mesh._units = "degrees" if in_degrees else "radians"
+        mesh._label(labels)
         return mesh
 
     @classmethod
     def from_dataframe(cls, table: Any, *, columns: Optional[Sequence[Any]] = None, units: Optional[str] = None,
-                       threshold: float = 0, threads: Optional[int] = None) -> "Delaunay":
+                       threshold: float = 0, duplicates: str = "error", threads: Optional[int] = None) -> "Delaunay":
         """The triangulation of nodes in a table with columns lon and lat, or x, y and z (a DataFrame of pandas or polars).
 
-        Also found: long, lng, longitude, latitude, and names that end in _deg, _degrees, _rad or _radians. A ValueError
-        if columns are missing, or several may be meant; ``columns=(longitude, latitude)`` or ``columns=(x, y, z)`` names
-        them. ``units``: see :func:`from_lonlat`. The attribute ``labels`` is the index of the table.
+        Also found: long, lng, longitude, clon, nav_lon and the like, with an end _deg, _degrees, _rad or _radians, or a
+        unit as in "lon [deg]". A ValueError if columns are missing, or several may be meant;
+        ``columns=(longitude, latitude)`` or ``columns=(x, y, z)`` names them. ``units``: see :func:`from_lonlat`. The
+        attribute ``labels`` is the index of the table; values enter by it.
         """
         names, unit = coordinate_columns(table, columns)
         if len(names) == 2:
-            mesh = cls.from_lonlat(table[names[0]], table[names[1]], units=units or unit, threshold=threshold,
-                                   threads=threads)
-        else:
-            mesh = cls(np.stack([real(table[name]) for name in names], axis=1), threshold=threshold, threads=threads)
-        mesh.labels = getattr(table, "index", None)
+            return cls.from_lonlat(table[names[0]], table[names[1]], units=units or unit, threshold=threshold,
+                                   duplicates=duplicates, threads=threads)
+        points = np.stack([real(table[name], f"{name} of node") for name in names], axis=1)
+        mesh = cls(points, threshold=threshold, duplicates=duplicates, threads=threads)
+        mesh._label(_labels_of(table))
         return mesh
+
+    @classmethod
+    def from_xarray(cls, dataset: Any, *, threads: Optional[int] = None) -> "Delaunay":
+        """The triangulation that :meth:`to_xarray` has made this Dataset of: the same bits, and the same ``labels``."""
+        points, labels = nodes_of_dataset(dataset)
+        mesh = cls(points, threads=threads)
+        mesh.labels = labels
+        return mesh
+
+    def _label(self, labels: Any) -> None:
+        """``labels``: of all given rows."""
+        if self._rows is None or labels is None:
+            self.labels = labels
+            return
+        self._rows = self._rows._replace(labels=labels)
+        self.labels = labels[np.unique(self._rows.node, return_index=True)[1]]
+
+    @property
+    def node_of_row(self) -> Ints:
+        """The node of each row that the mesh was made of; without ``duplicates`` 0, 1, 2, ..."""
+        return np.arange(self.npoints, dtype=np.int32) if self._rows is None else self._rows.node
 
     def __getstate__(self) -> Dict[str, Any]:
         return {**self.__dict__, "_mesh": None, "_known": {}}
@@ -108,17 +164,21 @@ class Delaunay(Places, Measures, Presentation):
         self._mesh = _core.Mesh(self.points, self._threads)
         self.points = read_only(self._mesh.points)
 
+    def __dask_tokenize__(self) -> Tuple[Any, ...]:
+        """For dask: equal for meshes with the same nodes, labels and units, whatever was computed of them."""
+        labels = None if self.labels is None else tuple(self.labels)
+        return type(self).__name__, hashlib.sha256(pickle.dumps((self.points.tobytes(), labels, self._units))).hexdigest()
+
     @property
     def npoints(self) -> int:
         """Number of nodes."""
         return len(self.points)
 
     @property
+    @once
     def simplices(self) -> Ints:
         """Corners of the triangles, shape (t, 3): counterclockwise seen from outside, the smallest first."""
-        if self._simplices is None:
-            self._simplices = self._mesh.triangles(self._threads)
-        return self._simplices
+        return self._mesh.triangles(self._threads)
 
     @property
     def nsimplex(self) -> int:
@@ -126,19 +186,17 @@ class Delaunay(Places, Measures, Presentation):
         return len(self.simplices)
 
     @property
+    @once
     def neighbors(self) -> Ints:
         """The triangle opposite each corner, shape (t, 3); -1: none."""
-        if self._neighbors is None:
-            self._neighbors = self._mesh.opposite_triangles(self._threads)
-        return self._neighbors
+        return self._mesh.opposite_triangles(self._threads)
 
     @property
+    @once
     def vertex_neighbor_vertices(self) -> Tuple[Ints, Ints]:
         """(indptr, indices): the neighbours of node k are indices[indptr[k]:indptr[k+1]], counterclockwise. For a boundary
         node the first and the last one are its neighbours on the boundary."""
-        if self._vertex_neighbors is None:
-            self._vertex_neighbors = self._mesh.neighbours(self._threads)
-        return self._vertex_neighbors
+        return self._mesh.neighbours(self._threads)
 
     @property
     def vertex_to_simplex(self) -> Ints:
@@ -178,7 +236,8 @@ class Delaunay(Places, Measures, Presentation):
             The file three.min.js, of release 111 to 160. None: what the environment variable PSTRIPACK_THREE names, or
             the wheel's, or that of Debian's libjs-three. RuntimeError if there is none.
         """
-        return globe(self, values, file, title, name, unit, coasts, three_file)
+        colours = None if values is None else self._enter(values, self.npoints)
+        return globe(self, colours, file, title, name, unit, coasts, three_file)
 
     def _repr_html_(self) -> str:
         return notebook_html(self)

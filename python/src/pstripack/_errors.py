@@ -18,7 +18,10 @@ class BadCoordinateError(TriangulationError):
 
 
 class CoincidentNodesError(TriangulationError):
-    """Nodes ``nodes[0]`` and ``nodes[1]`` point in the same direction."""
+    """Nodes ``nodes[0]`` and ``nodes[1]`` point in the same direction, and so do ``nodes[2]`` and ``nodes[3]``, and so on:
+    the first node of each direction, and a later one."""
+
+    coincide = True  #: False: they are within the threshold
 
 
 class CollinearNodesError(TriangulationError):

@@ -55,7 +55,7 @@ def globe(mesh: "Delaunay", values: Optional[ArrayLike], file: "Optional[Union[s
         colours, name, unit = areas * _EARTH_RADIUS * _EARTH_RADIUS, "area of a cell", "km²"
     else:
         colours = np.require(real(values), np.float64, ["A", "C"])
-        if colours.shape != (mesh.npoints,):
+        if colours.ndim != 1:
             raise ValueError(f"values must be one for each of {mesh.npoints} nodes; their shape is {colours.shape}")
     if three_file is None and "PSTRIPACK_THREE" not in os.environ and _OWN_THREE.exists():
         three_file = _OWN_THREE

@@ -8,25 +8,28 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._arrays import Floats, Ints, read_only, real, unit_vectors
+from ._values import Values
 
-Result = TypeVar("Result", Floats, Ints)
+Result = TypeVar("Result", Floats, Ints, Tuple[Ints, Ints])
 
 
-def _once(compute: "Callable[[Any], Result]") -> "Callable[[Any], Result]":
-    """Computes an array on the first call only; it is read only. Threads that call at a time may compute it each."""
+def once(compute: "Callable[[Any], Result]") -> "Callable[[Any], Result]":
+    """Computes an array, or a tuple of arrays, on the first call only; they are read only. Threads that call at a time may
+    compute it each."""
     name = compute.__name__
 
     @functools.wraps(compute)
     def known(self: Any) -> Result:
         if name not in self._known:
-            self._known[name] = read_only(compute(self))
-        array: Result = self._known[name]
-        return array
+            result: Any = compute(self)
+            self._known[name] = tuple(map(read_only, result)) if isinstance(result, tuple) else read_only(result)
+        kept: Result = self._known[name]
+        return kept
 
     return known
 
 
-class Measures:
+class Measures(Values):
     """Part of :class:`Delaunay`. Arrays are computed on first access, once, and are read only. Lengths and areas are those
     of the unit sphere: radians and steradians, to be multiplied by the radius and its square. All is of the directions
     of the nodes."""
@@ -45,7 +48,7 @@ class Measures:
     def vertex_neighbor_vertices(self) -> Tuple[Ints, Ints]: ...
 
     @property
-    @_once
+    @once
     def edges(self) -> Ints:
         """The two nodes of each edge, shape (e, 2): each edge once, the smaller node first, in the order of these; those
         with the same first node are counterclockwise round it."""
@@ -55,7 +58,7 @@ class Measures:
         return np.stack([first[once], indices[once]], axis=1)
 
     @property
-    @_once
+    @once
     def edge_lengths(self) -> Floats:
         """Lengths of the edges in radians, right up to 1e-15 of themselves."""
         first, second = self.edges.T
@@ -63,7 +66,7 @@ class Measures:
                                     self._threads)[:, 0]
 
     @property
-    @_once
+    @once
     def edge_midpoints(self) -> Floats:
         """The middle of each edge, unit vectors, shape (e, 3)."""
         return self._mesh.midpoints(self.edges, self._threads)
@@ -74,36 +77,36 @@ class Measures:
         return self._mesh.boundary()
 
     @property
-    @_once
+    @once
     def circumcenters(self) -> Floats:
         """Centres of the triangles' circumscribed circles, on the unit sphere, shape (t, 3)."""
         return self._mesh.circumcentres(self._threads)
 
     @property
-    @_once
+    @once
     def circumradii(self) -> Floats:
         """Radii of these circles in radians, shape (t,): less than pi/2, and right up to 1e-15 of themselves, beyond 60
         degrees up to 7e-15 radians."""
         return self._mesh.circumradii(self._threads)
 
     @property
-    @_once
+    @once
     def areas(self) -> Floats:
         """Areas of the triangles in steradians, shape (t,)."""
         return self._mesh.triangle_areas(self._threads)
 
     @property
-    @_once
+    @once
     def cell_areas(self) -> Floats:
         """Areas of the nodes' Voronoi cells in steradians, shape (n,); their sum is 4 pi. If the nodes lie in a hemisphere,
         the cells of boundary nodes share the rest of the sphere."""
         return self._mesh.cell_areas(self._threads)
 
     @property
-    @_once
+    @once
     def cell_centroids(self) -> Floats:
         """Centroids of the Voronoi cells, shape (n, 3): the unit vectors in the directions of the integrals of the position
-        over the cells, right up to 1e-6 of the width of the cell. A cell narrower than 1e-75 is a TriangulationError."""
+        over the cells. Right up to 1e-15 radians for each unit of the cell's length over its width."""
         return self._mesh.cell_centroids(self._threads)
 
     def gradient(self, values: ArrayLike) -> Floats:
@@ -112,7 +115,8 @@ class Measures:
         Parameters
         ----------
         values : array_like, shape (n,) or (n, ...)
-            One or several values of each node. A value that is not finite spoils the gradients around it.
+            One or several values of each node, in the order of the nodes or with their ``labels``. A value that is not
+            finite spoils the gradients around it.
 
         Returns
         -------
@@ -121,12 +125,12 @@ class Measures:
 
         The gradient is that of the quadratic function in the tangent plane that passes through the value of the node and
         fits best those of its neighbours and their neighbours, weighted by one over the squared distance (Renka, ACM
-        TOMS 10, 1984, section 3); that of a linear function where these nodes do not determine a quadratic one. The
-        method "cubic" of :meth:`interpolate` uses the same. Its error is of the second order in the distances.
+        TOMS 10, 1984, section 3); that of a linear function where these nodes do not determine a quadratic one. Where they
+        lie on a curve, to 3e-5 of their distances, such as a section or a track, it is the slope along the curve; the part
+        across it, which they do not tell, is 0. The method "cubic" of :meth:`interpolate` uses the same. The error is of
+        the second order in the distances between nodes, of the first order on the boundary.
         """
-        given = real(values)
-        if given.ndim < 1 or len(given) != self.npoints:
-            raise ValueError(f"values must be one for each of {self.npoints} nodes; their shape is {given.shape}")
+        given = real(self._enter(values, self.npoints))
         table = np.require(given.reshape(self.npoints, -1), np.float64, ["A", "C"])
         return self._mesh.gradients(table, self._threads).reshape(given.shape + (3,))
 

@@ -3,14 +3,14 @@ import abc
 from typing import Any, Optional, Tuple
 
 from . import _core, _plot, _tables
-from ._arrays import Floats
+from ._arrays import Floats, Ints
+from ._values import Values
 
 
-class Presentation:
+class Presentation(Values):
     """Part of :class:`Delaunay`. Methods import the packages that they need."""
 
     _mesh: _core.Mesh
-    labels: Any = None  #: the index of the DataFrame that the nodes are from
 
     @property
     @abc.abstractmethod
@@ -19,6 +19,10 @@ class Presentation:
     @property
     @abc.abstractmethod
     def cell_areas(self) -> Floats: ...
+
+    @property
+    @abc.abstractmethod
+    def simplices(self) -> Ints: ...
 
     @abc.abstractmethod
     def _number(self, threads: Optional[int]) -> int: ...
@@ -33,27 +37,36 @@ class Presentation:
         """The triangles or the Voronoi cells as an xarray.Dataset by the UGRID conventions, version 1.0. Needs xarray.
 
         ``values``: one value of each node, or of each triangle or vertex of cells: an array, a Series, or several as a
-        dict or DataFrame. They become variables with the attributes ``mesh`` and ``location``. Indices count from 0
-        (``start_index``); -1 (``_FillValue``) fills the rows of cells with fewer corners.
+        dict, DataFrame or Dataset. Those of nodes enter by their ``labels``. They become variables with the attributes
+        ``mesh`` and ``location`` beside their own; DataArrays keep further dimensions, such as time. Indices count from 0
+        (``start_index``); -1 (``_FillValue``) fills the rows of cells with fewer corners. The vectors to the nodes and
+        their labels are coordinates: :meth:`Delaunay.from_xarray` makes the same mesh of them.
 
         ``what``: "triangles" or "cells". The mesh's nodes are those of the triangulation, or the vertices of the cells.
         """
-        cells = _tables.kind(what)
-        return _tables.dataset(self._mesh, cells, _tables.named(values, self.labels), self._number(threads))
+        cells = _tables.kind(what, values)
+        nodes = len(self._mesh.points)
+        others = [2 * nodes - 4] if cells else [len(self.simplices)]
+        columns = _tables.named(values, lambda each: self._column(each, nodes, others))
+        return _tables.dataset(self._mesh, cells, columns, self.labels, self._number(threads))
 
     def to_geodataframe(self, what: str = "cells", values: Any = None, *, threads: Optional[int] = None) -> Any:
         """The Voronoi cells or the triangles as a geopandas.GeoDataFrame. Needs geopandas.
 
         Polygons are counterclockwise, cut at the dateline, closed along a pole inside them, and within 0.001 degrees of
-        the arcs. The column ``area_km2`` is the exact area on a sphere of radius 6371 km, not that of the polygon.
+        the arcs: 110 m on the Earth. The column ``area_km2`` is the exact area of the whole cell or triangle on a sphere of
+        radius 6371 km; if you cut the polygons, it does not change.
 
         ``what``: "cells" or "triangles". ``values``: one value of each cell or triangle: an array, a Series, or several
-        as a dict or DataFrame. The index of cells is ``labels``. If the nodes lie in a hemisphere, the cells of boundary
-        nodes share the rest of the sphere.
+        as a dict or DataFrame; those of cells enter by ``labels``. Columns called ``area_km2`` and ``geometry`` get
+        ``_given`` appended. The index of cells is ``labels``. If the nodes lie in a hemisphere, the cells of boundary nodes
+        share the rest of the sphere.
         """
-        cells = _tables.kind(what)
-        return _tables.geodataframe(self._mesh, cells, _tables.named(values, self.labels),
-                                    self.cell_areas if cells else self.areas, self.labels, self._number(threads))
+        cells = _tables.kind(what, values)
+        areas = self.cell_areas if cells else self.areas
+        others = [] if cells else [len(areas)]
+        columns = _tables.named(values, lambda each: self._column(each, len(self._mesh.points), others))
+        return _tables.geodataframe(self._mesh, cells, columns, areas, self.labels, self._number(threads))
 
     def plot(self, values: Any = None, what: str = "triangles", *, projection: str = "map",
              center: Optional[Tuple[float, float]] = None, radius: Optional[float] = None, ax: Any = None,
@@ -64,8 +77,8 @@ class Presentation:
         Parameters
         ----------
         values : array_like, optional
-            One value of each node, or of each triangle, which gives the colours; NaN is not drawn. A triangle has the
-            mean of its three nodes. Default: draws lines.
+            One value of each node, in their order or with their ``labels``, or of each triangle, which gives the colours;
+            NaN is not drawn. A triangle has the mean of its three nodes. Default: draws lines.
         what : {"triangles", "cells"}
         projection : {"map", "orthographic"}
             Longitude and latitude in degrees, cut opposite the centre; or the view from infinitely far away, without the
@@ -87,7 +100,10 @@ class Presentation:
         -------
         matplotlib.collections.PolyCollection with values, for ``plt.colorbar``; else a LineCollection.
         """
-        cells = _tables.kind(what)
-        given = None if values is None else _tables.numbers(values, self.labels)
+        cells = _tables.kind(what, values)
+        others = [] if cells else [len(self.simplices)]
+        given = None if values is None else self._column(values, len(self._mesh.points), others).numbers
+        if given is not None and given.ndim > 1:
+            raise ValueError(f"values must have one dimension, not the shape {given.shape}: choose one of each node")
         return _plot.plot(self._mesh, given, cells, projection, center, radius, ax, edgecolor, linewidth, vmin, vmax,
                           self._number(threads), **style)

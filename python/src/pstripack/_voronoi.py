@@ -142,7 +142,7 @@ class SphericalVoronoi:
 
 
 def _duplicates(nodes: Tuple[int, ...]) -> CoincidentNodesError:
-    first, second = sorted(nodes)
+    first, second = sorted(nodes[:2])
     return CoincidentNodesError(
         f"Duplicate generators present: points {first} and {second} (counted from 0)", (first, second))
 

@@ -20,15 +20,6 @@ void World::abort() const {
   std::abort();  // does not return either, but MPI's declaration does not say so
 }
 
-RanksOfMachine ranks_of_machine(const World&) {
-  MPI_Comm machine;
-  int ranks = 1;
-  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
-  MPI_Comm_size(machine, &ranks);
-  MPI_Comm_free(&machine);
-  return {ranks};
-}
-
 void tell_others(const void* message, std::size_t size) {
   int ranks = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);

@@ -23,13 +23,6 @@ class World {
   [[noreturn]] void abort() const;
 };
 
-/// The ranks that can share memory with this one, itself included.
-struct RanksOfMachine {
-  int count;
-};
-/// Collective.
-RanksOfMachine ranks_of_machine(const World& world);
-
 /// On rank 0: sends `size` bytes to each of the other ranks, over MPI_COMM_WORLD, where nothing else is sent.
 void tell_others(const void* message, std::size_t size);
 /// On the other ranks: waits for that message. Sleeps grow with the time waited so far, so that frequent

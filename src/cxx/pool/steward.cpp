@@ -11,10 +11,6 @@
 #include <string>
 #include <utility>
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
 #include "base/environment.h"
 #include "mpi/collective_trmesh.h"
 #include "pool/area_layout.h"
@@ -190,13 +186,6 @@ void serve_as_worker(MpiCommunicator& ranks) {
       // Rank 0 tells the model; the next call may succeed.
     }
   }
-}
-
-void share_processors([[maybe_unused]] const RanksOfMachine& here) {
-#ifdef _OPENMP
-  if (environment_variable("OMP_NUM_THREADS") == nullptr)
-    omp_set_num_threads(std::max(1, omp_get_num_procs() / here.count));
-#endif
 }
 
 }  // namespace pstripack

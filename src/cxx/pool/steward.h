@@ -61,7 +61,4 @@ class Steward {
 /// Every other rank: takes part in calls until the pool ends. Collective.
 void serve_as_worker(MpiCommunicator& ranks);
 
-/// Sets the number of threads of this rank to its share of the processors, unless OMP_NUM_THREADS is set.
-void share_processors(const RanksOfMachine& here);
-
 }  // namespace pstripack

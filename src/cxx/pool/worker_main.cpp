@@ -64,8 +64,6 @@ int main(int argc, char** argv) {
   {
     const pstripack::World world;
     try {
-      const pstripack::RanksOfMachine here = ranks_of_machine(world);
-      pstripack::share_processors(here);
       pstripack::MpiCommunicator ranks = world.communicator();
       ranks.show_phase_in(watchdog->phase());
       if (rank == 0)

@@ -1,0 +1,106 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel_for.h"
+#include "files/measures.h"
+#include "files/mesh.h"
+#include "geometry/measures.h"
+
+namespace files {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kHalfTurn = -0.9;  ///< cosine of the least angle that is nearly half a turn
+
+/// x / sin(x) - 1 for the angle x between two unit vectors: below 0.2 by its series.
+double over_sine_minus_1(const Point& p, const Point& q) {
+  const double sine = length(cross(p, minus(q, p))), x = std::atan2(sine, dot(p, q)), square = x * x;
+  if (x > 0.2) return x / sine - 1;
+  double sum = 0;
+  for (const double term : {8191.0 / 37362124800, 1414477.0 / 653837184000, 73.0 / 3421440, 127.0 / 604800,
+                            31.0 / 15120, 7.0 / 360, 1.0 / 6})
+    sum = (sum + term) * square;
+  return sum;
+}
+
+/// The centroid of a polygon: the direction of the integral of p over it, which is half the sum over its
+/// sides, from p to q, of their length in the direction of p x q. Differences from the first corner g, in a
+/// frame with g upwards, keep the digits of small and of thin polygons: with p = g + d and q = g + e the
+/// sides add (length / sine of length) (d x e + g x (e - d)), and the sum of all e - d is 0.
+///
+/// `half_turn(k)`: the normal of the side from corner k, if the side is nearly half a turn; else null.
+template <class PointAt, class HalfTurn>
+Point centroid(std::size_t corners, const PointAt& point, const HalfTurn& half_turn) {
+  const Point g = point(0), east = unit(cross(std::fabs(g.z) < 0.9 ? Point{0, 0, 1} : Point{1, 0, 0}, g)),
+              north = cross(g, east);
+  const auto in_frame = [&](const Point& p) -> Point {
+    const Point d = minus(p, g);
+    return {dot(d, east), dot(d, north), -dot(d, d) / 2};
+  };
+  Point sum{0, 0, 0}, p = g;
+  for (std::size_t k = 0; k < corners; ++k) {
+    const Point q = point((k + 1) % corners), d = in_frame(p), e = in_frame(q);
+    if (const Point* const normal = half_turn(k)) {
+      const double angle = std::atan2(dot(*normal, cross(p, q)), dot(p, q)),
+                   turn = angle < 0 ? angle + 2 * kPi : angle;
+      sum = {sum.x + turn * dot(*normal, east) + (e.y - d.y),
+             sum.y + turn * dot(*normal, north) - (e.x - d.x), sum.z + turn * dot(*normal, g)};
+    } else {
+      const Point twice = cross(d, e);
+      const double more = over_sine_minus_1(p, q);
+      sum = {sum.x + (1 + more) * twice.x - more * (e.y - d.y),
+             sum.y + (1 + more) * twice.y + more * (e.x - d.x), sum.z + (1 + more) * twice.z};
+    }
+    p = q;
+  }
+  const Point moment{sum.x * east.x + sum.y * north.x + sum.z * g.x,
+                     sum.x * east.y + sum.y * north.y + sum.z * g.y,
+                     sum.x * east.z + sum.y * north.z + sum.z * g.z};
+  const Point centre = unit(moment);
+  return std::isfinite(centre.x + centre.y + centre.z) ? centre : g;  // all corners are one
+}
+
+}  // namespace
+
+void find_half_turns(Faces& cells, const std::int32_t* beyond, const pstripack::Directions& nodes) {
+  const auto point = [&](std::size_t k) {
+    return cells.points[static_cast<std::size_t>(cells.corner[k]) - 1];
+  };
+  for (std::size_t f = 0; f < cells.size(); ++f)
+    for (std::size_t k = cells.begin[f]; k < cells.begin[f + 1]; ++k) {
+      const std::size_t end = k + 1 < cells.begin[f + 1] ? k + 1 : cells.begin[f];
+      if (dot(point(k), point(end)) >= kHalfTurn) continue;
+      const Point normal = accurate_difference(direction_of(nodes, static_cast<pstripack::index_t>(f)),
+                                               direction_of(nodes, beyond[end] - 1));
+      cells.half_turns.push_back({f, cells.corner[k], cells.corner[end], unit(normal)});
+    }
+}
+
+std::vector<Point> centroids(const Faces& faces) {
+  std::vector<Point> centres(faces.size());
+  pstripack::parallel_pieces(
+      centres.size(), pstripack::threads_for(8 * centres.size()),
+      [&](std::size_t first, std::size_t last, int) {
+        for (std::size_t f = first; f < last; ++f) {
+          const std::size_t corners = faces.corners(f);
+          const auto corner = [&](std::size_t k) { return faces.corner[faces.begin[f] + k]; };
+          const auto point = [&](std::size_t k) {
+            return faces.points[static_cast<std::size_t>(corner(k)) - 1];
+          };
+          const auto first = std::lower_bound(faces.half_turns.begin(), faces.half_turns.end(), f,
+                                              [](const HalfTurn& h, std::size_t of) { return h.face < of; });
+          // divide_half_turns() may have given the side a corner in its middle.
+          centres[f] = centroid(corners, point, [&](std::size_t k) -> const Point* {
+            const std::size_t before = (k + corners - 1) % corners, after = (k + 1) % corners;
+            for (auto h = first; h != faces.half_turns.end() && h->face == f; ++h)
+              if ((corner(k) == h->from && (corner(after) == h->to || corner((k + 2) % corners) == h->to)) ||
+                  (corner(before) == h->from && corner(after) == h->to))
+                return &h->normal;
+            return nullptr;
+          });
+        }
+      });
+  return centres;
+}
+
+}  // namespace files
