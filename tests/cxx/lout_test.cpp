@@ -59,7 +59,9 @@ TEST(Lout, IsReadWhereItNamesAnOpenUnit) {
     const std::string text = written_to_unit(some_unit, [&] { EXPECT_EQ((mesh.*listing)(&unit), ""); });
     EXPECT_GT(text.size(), 500U);
     // libstripack prints on standard output as the Fortran 90 text does, to a unit as Algorithm 772.
-    if (sizeof(Real) == 4 || sizeof(Int) == 8) EXPECT_EQ(text, (mesh.*listing)(&six));
+    if (sizeof(Real) == 4 || sizeof(Int) == 8) {
+      EXPECT_EQ(text, (mesh.*listing)(&six));
+    }
   }
 }
 

@@ -187,7 +187,7 @@ TEST(width_formula, is_limited_in_its_gradient) {
 
 files::WidthRegion region(double width, double transition,
                           std::vector<std::vector<std::pair<double, double>>> rings) {
-  return {1, std::move(rings), width, transition};
+  return {{1, {}, std::move(rings)}, width, transition};
 }
 
 TEST(widths_of_regions, change_over_the_transitions_and_hold_holes_datelines_and_poles) {
