@@ -129,7 +129,7 @@ TEST(EachAllocation, OfDistributedMeshes) {
       [&] { return part.triangulate(mesh); },
       [&](int code) { return points_of(mesh) == (code == 0 ? all : 0); },
       // Empties the mesh, which frees its memory.
-      [&] { EXPECT_EQ(pstripack_mesh_triangulate(mesh, -1, nullptr, nullptr), PSTRIPACK_TOO_MANY_NODES); });
+      [&] { EXPECT_EQ(pstripack_mesh_triangulate(mesh, -1, nullptr, nullptr), PSTRIPACK_BAD_SIZE); });
 
   ASSERT_EQ(part.triangulate(mesh), 0);
   const Mesh expected = trmesh(nodes());
@@ -180,7 +180,7 @@ TEST(EachAllocation, OfCentroidalTessellations) {
   ASSERT_NE(moved, given.xyz);
   const auto all = static_cast<std::int64_t>(part.number.size());
   const auto empty_mesh = [&] {
-    EXPECT_EQ(pstripack_mesh_triangulate(mesh, -1, nullptr, nullptr), PSTRIPACK_TOO_MANY_NODES);
+    EXPECT_EQ(pstripack_mesh_triangulate(mesh, -1, nullptr, nullptr), PSTRIPACK_BAD_SIZE);
   };
   empty_mesh();
   fail_each_allocation(
