@@ -358,9 +358,8 @@ Angles angles_of(const Direction& a, const Direction& b, const Direction& c) {
 
 double cell_area(const Direction& v, const Direction* ring, std::size_t count) {
   double area = kNone;
-  const bool found =
-      with_enough_bits([&](auto zero) { return find_cell_area<decltype(zero)>(v, ring, count, area); });
-  return found && area >= std::numeric_limits<double>::min() ? area : kNone;
+  with_enough_bits([&](auto zero) { return find_cell_area<decltype(zero)>(v, ring, count, area); });
+  return area >= std::numeric_limits<double>::min() ? area : kNone;
 }
 
 }  // namespace pstripack

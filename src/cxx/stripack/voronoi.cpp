@@ -493,8 +493,8 @@ bool find_back_edges(const ListReader<std::int32_t>& lists, const Directions& no
 namespace {
 
 /// Throws NodesTooClose if a neighbour is so close that the area of a disc between the two is below all
-/// doubles: a cell holds one of half the distance to the nearest neighbour. Else returns false.
-bool refuse_if_too_close(const ListReader<std::int32_t>& reader, const Directions& nodes, std::int32_t node) {
+/// doubles: a cell holds one of half the distance to the nearest neighbour.
+void refuse_if_too_close(const ListReader<std::int32_t>& reader, const Directions& nodes, std::int32_t node) {
   const auto direction = [&](std::int32_t k) { return direction_of(nodes, static_cast<index_t>(k - 1)); };
   std::int32_t nearest = 0;
   double least = 0x1p-510;
@@ -503,7 +503,6 @@ bool refuse_if_too_close(const ListReader<std::int32_t>& reader, const Direction
     if (distance < least) least = distance, nearest = neighbour;
   });
   if (nearest != 0) throw NodesTooClose(std::min(node, nearest), std::max(node, nearest));
-  return false;
 }
 
 }  // namespace
@@ -549,8 +548,11 @@ bool cell_areas(const ListsView<std::int32_t>& lists, const Directions& nodes, d
     });
   });
   errors.rethrow();
-  for (std::int32_t node = 1; good && node <= reader.size(); ++node)
-    if (std::isnan(area[node - 1])) good = refuse_if_too_close(reader, nodes, node);
+  for (std::int32_t node = 1; good && node <= reader.size(); ++node) {
+    if (!std::isnan(area[node - 1])) continue;
+    refuse_if_too_close(reader, nodes, node);
+    area[node - 1] = 0;  // all corners are one point, as where the nodes around lie on a great circle
+  }
   return good;
 }
 
