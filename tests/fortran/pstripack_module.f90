@@ -72,7 +72,7 @@ contains
   !> Each thread gets the texts of its own codes and its own density.
   recursive subroutine threads_at_once
     real(c_double), parameter :: whole = 4*acos(-1.0_c_double)
-    character(len=100) :: texts(0:14)
+    character(len=200) :: texts(0:14)
     integer :: wrong, i
     do i = 0, 14
       texts(i) = pstripack_strerror(int(-i, c_int32_t))

@@ -353,7 +353,7 @@ EOF
     until_it_says saved
     printf '\003'
     sleep 5
-  } | script -qec "'$RUN' -n $ranks --oversubscribe -- sh model.sh" /dev/null > job.out
+  } | script -qec "exec '$RUN' -n $ranks --oversubscribe -- sh model.sh" /dev/null > job.out
   code=$?
   [ $code -eq 137 ] || fail "exit code $code"
   [ "$(grep -c saving job.out)" -eq 1 ] || fail "not one signal"
