@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/parallel_for.h"
+#include "files/clipping.h"
 #include "files/map_rings.h"
 #include "pictures/view.h"
 
@@ -110,6 +111,14 @@ class Drawing {
   std::unique_ptr<const pictures::View> view_;
 };
 
+Outlines outlines_on_map(const files::Faces& faces) {
+  const files::MapLines lines(faces);
+  return collect(faces.size(), [&](std::size_t f, const auto& add) {
+    for (const files::MapRing& ring : lines.polygons(f))
+      add(ring, [](const files::MapCorner& c) { return std::pair(c.x(), c.lat); });
+  });
+}
+
 }  // namespace
 
 files::Faces faces_of(const Triangulation& mesh, bool cells) {
@@ -138,12 +147,19 @@ files::Faces faces_of(const Triangulation& mesh, bool cells) {
 }
 
 Outlines map_polygons(const Triangulation& mesh, bool cells) {
-  const files::Faces faces = faces_of(mesh, cells);
-  const files::MapLines lines(faces);
-  return collect(faces.size(), [&](std::size_t f, const auto& add) {
-    for (const files::MapRing& ring : lines.polygons(f))
-      add(ring, [](const files::MapCorner& c) { return std::pair(c.x(), c.lat); });
-  });
+  return outlines_on_map(faces_of(mesh, cells));
+}
+
+CutCells cut_cells(const Triangulation& mesh, const std::vector<files::MapRegion>& polygons) {
+  files::Faces cells = faces_of(mesh, true);
+  for (Point& centre : cells.centres) centre = files::unit(centre);
+  const files::Faces parts = files::clipped_to_polygons(cells, polygons);
+  CutCells all{outlines_on_map(parts), Buffer<double>(cells.size())};
+  for (std::int32_t& face : all.outlines.face)
+    face = static_cast<std::int32_t>(parts.nodes[static_cast<std::size_t>(face)]);
+  std::fill(all.area.begin(), all.area.end(), 0);
+  for (std::size_t f = 0; f < parts.size(); ++f) all.area[parts.nodes[f]] += parts.area[f];
+  return all;
 }
 
 Outlines polygons_in(const Window& window, const Triangulation& mesh, bool cells) {

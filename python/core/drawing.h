@@ -2,8 +2,10 @@
 // Triangles and Voronoi cells as polygons and lines of a map.
 
 #include <cstdint>
+#include <vector>
 
 #include "files/mesh.h"
+#include "files/width_regions.h"
 #include "triangulation.h"
 
 namespace bindings {
@@ -29,6 +31,14 @@ struct Window {
 /// Polygons of longitudes and latitudes in degrees, cut at the dateline and closed along a pole (MapLines of
 /// files/map_rings.h). A face narrower than rounding has none.
 Outlines map_polygons(const Triangulation& mesh, bool cells);
+
+struct CutCells {
+  Outlines outlines;    ///< as above, of the parts inside
+  Buffer<double> area;  ///< of what is inside of each cell, in steradians
+};
+/// The parts of Voronoi cells in polygons that do not overlap. Throws files::NoMesh as clipped_to_polygons()
+/// of files/clipping.h.
+CutCells cut_cells(const Triangulation& mesh, const std::vector<files::MapRegion>& polygons);
 
 /// The visible parts of the faces, and of their sides, each once; arcs are curved.
 Outlines polygons_in(const Window& window, const Triangulation& mesh, bool cells);

@@ -296,6 +296,21 @@ py::tuple outlines_in(const Mesh& mesh, bool cells, bool orthographic, double lo
   }));
 }
 
+using RingsOfPolygon = std::vector<std::vector<std::pair<double, double>>>;  // degrees, outline first
+
+/// The outlines and areas of cells in polygons.
+py::tuple cut_cells(const Mesh& mesh, const std::vector<RingsOfPolygon>& polygons, int threads) {
+  std::vector<files::MapRegion> regions;
+  for (const RingsOfPolygon& rings : polygons) regions.push_back({regions.size() + 1, {}, rings});
+  try {
+    bindings::CutCells cells =
+        compute(threads, [&] { return bindings::cut_cells(*mesh.triangulation, regions); });
+    return arrays_of(std::move(cells.outlines)) + py::make_tuple(array_of(std::move(cells.area)));
+  } catch (const files::NoMesh& e) {
+    throw py::value_error(std::string("clip: ") + e.what());
+  }
+}
+
 /// Raises an exception of the package with the indices of the nodes in question.
 void raise(const NoTriangulation& e) {
   using Cause = NoTriangulation::Cause;
@@ -348,6 +363,7 @@ PYBIND11_MODULE(_core, m) {
              return arrays_of(
                  compute(threads, [&] { return bindings::map_polygons(*mesh.triangulation, cells); }));
            })
+      .def("cut_cells", &cut_cells)
       .def("polygons_in", &outlines_in<bindings::polygons_in>)
       .def("lines_in", &outlines_in<bindings::lines_in>)
       .def("midpoints", &midpoints)

@@ -209,32 +209,13 @@ Buffer<double> Triangulation::interpolate(Method method, const Point* places, st
 Rows Triangulation::weights(Method method, const Point* places, std::size_t count) const {
   const methods::GradientTerms gradients =
       method == Method::cubic ? methods::gradient_terms(view()) : methods::GradientTerms{};
-  return rows<Cubic>(
-      places, count, [&](const Point& p, std::int32_t& near, std::vector<methods::Share>& shares, Cubic& at) {
+  return rows<Nothing>(
+      places, count, [&](const Point& p, std::int32_t& near, std::vector<methods::Share>& shares, Nothing&) {
         if (method == Method::linear)
           interpolation_->linear(p, near, shares);
         else
           interpolation_->natural(p, near, shares);
-        if (method != Method::cubic || shares.size() < 2) return;
-        interpolation_->cubic_terms(p, shares, at.ways);
-        at.shares = shares;
-        for (std::size_t k = 0; k < at.ways.size(); ++k) {
-          const auto node = static_cast<std::size_t>(shares[k].node);
-          for (std::size_t t = gradients.begin[node - 1]; t < gradients.begin[node]; ++t) {
-            const auto& [other, slope] = gradients.terms[t];
-            const double part = dot(at.ways[k], slope);
-            at.shares.push_back({other, part});
-            at.shares.push_back({shares[k].node, -part});
-          }
-        }
-        std::stable_sort(at.shares.begin(), at.shares.end(),
-                         [](const methods::Share& a, const methods::Share& b) { return a.node < b.node; });
-        shares.clear();
-        for (const methods::Share& s : at.shares)
-          if (!shares.empty() && shares.back().node == s.node)
-            shares.back().part += s.part;
-          else
-            shares.push_back(s);
+        if (method == Method::cubic) interpolation_->cubic_shares(p, gradients, shares);
       });
 }
 

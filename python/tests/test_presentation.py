@@ -75,6 +75,11 @@ def test_nodes_are_found_in_the_columns_of_a_table():
     radians = pandas.DataFrame({"lat_rad": np.radians(lat), "lon_rad": np.radians(lon)})
     assert np.allclose(Delaunay.from_dataframe(radians).points, xyz, rtol=0, atol=1e-15)
     assert np.array_equal(Delaunay.from_dataframe(pandas.DataFrame(xyz, columns=list("xyz"))).points, xyz)
+    for metres in (5e5, 5.2e6, 400), (5e5, 9.9e6, 2000), (1, 2, 3):
+        utm = pandas.DataFrame(np.array(metres) + np.random.default_rng(1).uniform(0, 0.1 * metres[0], (9, 3)), columns=list("xyz"))
+        with pytest.raises(ValueError, match=r"not on one sphere: .* to_crs\(4326\)"):
+            Delaunay.from_dataframe(utm)
+        assert Delaunay.from_dataframe(utm, columns=("x", "y", "z")).npoints == 9
     both = pandas.DataFrame({"lon": lon, "longitude": lon + 1, "lat": lat, "x": xyz[:, 0], "y": xyz[:, 1], "z": xyz[:, 2]})
     assert np.array_equal(Delaunay.from_dataframe(both, columns=("lon", "lat")).points, xyz)
     assert np.array_equal(Delaunay.from_dataframe(both, columns=["x", "y", "z"]).points, xyz)
@@ -273,9 +278,15 @@ def area_on_sphere(polygon):
     latitude, as in an equal-area map, but exact along each side."""
     lon, lat = np.radians(np.array(polygon.exterior.coords)).T
     assert len(polygon.interiors) == 0
-    width, a, b = np.diff(lon), lat[:-1], lat[1:]
-    height = np.where(np.abs(b - a) < 1e-9, 1, b - a)
-    return -(width * np.where(np.abs(b - a) < 1e-9, np.sin((a + b) / 2), (np.cos(a) - np.cos(b)) / height)).sum()
+    width, half, middle, south = np.diff(lon), np.diff(lat) / 2, (lat[:-1] + lat[1:]) / 2, lat.min()
+    # The mean of the sine along each side, less its value in the south: differences keep the digits of small polygons.
+    mean = 2 * np.cos((middle + south) / 2) * np.sin((middle - south) / 2) + np.sin(middle) * (np.sinc(half / np.pi) - 1)
+    return -(width * mean).sum()
+
+
+def area_with_holes(polygon):
+    return abs(area_on_sphere(type(polygon)(polygon.exterior))) - sum(abs(area_on_sphere(type(polygon)(hole)))
+                                                                     for hole in polygon.interiors)
 
 
 def test_polygons_of_a_geodataframe_have_the_areas_of_the_mesh():
@@ -310,6 +321,48 @@ def test_each_node_is_in_the_polygon_of_its_cell():
     assert cell == [[i] for i in range(0, 300, 20)] and frame["node"].tolist() == list(range(300))
     with pytest.raises(ValueError, match=r"one for each of 596 triangles, not 300 \(values\)"):
         mesh.to_geodataframe("triangles", np.zeros(300))
+
+
+def test_cells_are_cut_at_polygons():
+    geopandas = pytest.importorskip("geopandas")
+    from shapely.geometry import MultiPolygon, Point, Polygon
+    rng = np.random.default_rng(3)
+    for size in 0.01, 1.0, 20.0:  # degrees: a hillside, a catchment, a continent
+        lon, lat = rng.uniform(10, 10 + size, 40), rng.uniform(47, 47 + size, 40)
+        mesh = Delaunay.from_lonlat(np.append(lon, -120), np.append(lat, -40))
+
+        def at(*corners):
+            return [(10 + size * x, 47 + size * y) for x, y in corners]
+
+        hole = at((0.5, 0.5), (0.6, 0.5), (0.6, 0.6), (0.5, 0.6))
+        catchment = MultiPolygon([Polygon(at((0.1, 0.2), (0.8, 0.1), (0.9, 0.7), (0.4, 0.9)), [hole]),
+                                  Polygon(at((0.05, 0.6), (0.3, 0.9), (0.05, 0.9)))])
+        frame = mesh.to_geodataframe(clip=catchment)
+        assert frame.geometry.iloc[-1] is None and frame["area_km2"].iloc[-1] == 0 and len(frame) == 41
+        all_inside = sum(map(area_with_holes, catchment.geoms)) * EARTH**2
+        assert frame["area_km2"].sum() == pytest.approx(all_inside, rel=1e-6)
+        for shape, area in zip(frame.geometry, frame["area_km2"]):
+            found = sum(map(area_on_sphere, getattr(shape, "geoms", [shape]))) * EARTH**2 if shape is not None else 0
+            # The sides of cells are arcs, drawn as lines within 0.001 degrees.
+            assert found == pytest.approx(area, rel=min(0.3 * np.radians(size), 0.02 / size), abs=1e-7 * all_inside)
+        x, y = rng.uniform(10, 10 + size, 300), rng.uniform(47, 47 + size, 300)
+        distance, node = mesh.nearest(lon=x, lat=y, k=2, distance=True)
+        near_a_side = distance[:, 1] - distance[:, 0] < 1e-4 * np.radians(size)
+        for i in np.flatnonzero(~near_a_side):
+            shape = frame.geometry.iloc[node[i, 0]]
+            assert catchment.contains(Point(x[i], y[i])) == (shape is not None and shape.contains(Point(x[i], y[i])))
+        # Any table of polygons, in its coordinates; catchments that overlap count once.
+        table = geopandas.GeoDataFrame(geometry=[catchment, *catchment.geoms], crs="EPSG:4326")
+        assert np.allclose(mesh.to_geodataframe(clip=table)["area_km2"], frame["area_km2"], rtol=1e-9)
+        metres = mesh.to_geodataframe(clip=table.to_crs("EPSG:3035"))["area_km2"]
+        assert np.allclose(metres, frame["area_km2"], rtol=1e-5, atol=1e-6 * all_inside)
+    for wrong, message in ((Point(10, 47), "must be a polygon, not Point"), (Polygon(), "must be a polygon"),
+                           (Polygon([(0, 0), (5e5, 0), (0, 5e6)]), r"no longitudes .*: pass clip.to_crs"),
+                           (Polygon([(0, 0), (2, 2), (2, 0), (0, 2)]), "crosses or lies on")):
+        with pytest.raises(ValueError, match=message):
+            mesh.to_geodataframe(clip=wrong)
+    with pytest.raises(ValueError, match="clip cuts cells"):
+        mesh.to_geodataframe("triangles", clip=catchment)
 
 
 def test_the_index_of_a_table_is_that_of_its_cells():

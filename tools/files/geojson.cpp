@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "files/nodes.h"
 #include "text_file.h"
 
 namespace files {
@@ -64,6 +65,7 @@ Json read_features(const std::string& text, const std::string& file, const char*
   try {
     root = Json::parse(text, see);
   } catch (const Json::parse_error& e) {
+    refuse_foreign(file, text);
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(e.byte, text.size()));
     throw std::runtime_error(fmt::format("{}:{}: not valid JSON: {}", file,
                                          1 + std::count(text.begin(), end, '\n'), reason_of(e)));

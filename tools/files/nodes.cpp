@@ -46,38 +46,6 @@ std::string_view first_word(std::string_view text) {
   return text.substr(0, text.find_first_of(" \t\r\n"));
 }
 
-/// Throws if the contents are of a format that another program converts, and says how.
-void refuse_foreign(const std::string& file, const std::string& contents) {
-  constexpr auto kToCsv = "libreoffice --headless --convert-to csv {in}";
-  constexpr auto kToGeojson = "ogr2ogr -f GeoJSON -t_srs EPSG:4326 {out}.geojson {in}";
-  struct Foreign {
-    std::string_view begin, inside;  ///< its first bytes, and a name inside an archive
-    const char *name, *command;
-  };
-  using namespace std::string_view_literals;
-  static constexpr Foreign kForeign[] = {
-      {"\0\0\x27\x0A"sv, "", "a shapefile", kToGeojson},
-      {"SQLite format 3", "", "a GeoPackage", kToGeojson},
-      {"<?xml", "<kml", "KML", kToGeojson},
-      {"<kml", "", "KML", kToGeojson},
-      {"PK\x03\x04", ".kml", "KMZ", kToGeojson},
-      {"PK\x03\x04", "xl/workbook", "a spreadsheet", kToCsv},
-      {"PK\x03\x04", "opendocument.spreadsheet", "a spreadsheet", kToCsv},
-      {"\xD0\xCF\x11\xE0", "W\0o\0r\0k\0b\0o\0o\0k"sv, "a spreadsheet", kToCsv},
-      {"PAR1", "", "Parquet",
-       "python3 -c \"import pandas; pandas.read_parquet('{in}').to_csv('{out}.csv', index=False)\""},
-      {"GRIB", "", "GRIB", "cdo -f nc copy {in} {out}.nc"}};
-  for (const Foreign& f : kForeign) {
-    if (contents.compare(0, f.begin.size(), f.begin) != 0 || contents.find(f.inside) == contents.npos)
-      continue;
-    const std::size_t dot = file.find_last_of("./");
-    const std::string stem = dot != file.npos && file[dot] == '.' ? file.substr(0, dot) : file;
-    throw std::runtime_error(
-        fmt::format("{}: {}: convert it first, by `{}`", file, f.name,
-                    fmt::format(fmt::runtime(f.command), fmt::arg("in", file), fmt::arg("out", stem))));
-  }
-}
-
 /// Sets the nodes from given angles. Angles too large for radians are degrees. `to_exchange`: value of
 /// --columns for the hint that longitudes and latitudes may be exchanged.
 void set_angles(Nodes& nodes, LonLat given, Units units, const std::string& to_exchange) {
@@ -386,6 +354,37 @@ void read_off(Nodes& nodes, const std::string& text, const ReadOptions& options)
 }
 
 }  // namespace
+
+void refuse_foreign(const std::string& file, const std::string& contents) {
+  constexpr auto kToCsv = "libreoffice --headless --convert-to csv {in}";
+  constexpr auto kToGeojson = "ogr2ogr -f GeoJSON -t_srs EPSG:4326 {out}.geojson {in}";
+  struct Foreign {
+    std::string_view begin, inside;  ///< its first bytes, and a name inside an archive
+    const char *name, *command;
+  };
+  using namespace std::string_view_literals;
+  static constexpr Foreign kForeign[] = {
+      {"\0\0\x27\x0A"sv, "", "a shapefile", kToGeojson},
+      {"SQLite format 3", "", "a GeoPackage", kToGeojson},
+      {"<?xml", "<kml", "KML", kToGeojson},
+      {"<kml", "", "KML", kToGeojson},
+      {"PK\x03\x04", ".kml", "KMZ", kToGeojson},
+      {"PK\x03\x04", "xl/workbook", "a spreadsheet", kToCsv},
+      {"PK\x03\x04", "opendocument.spreadsheet", "a spreadsheet", kToCsv},
+      {"\xD0\xCF\x11\xE0", "W\0o\0r\0k\0b\0o\0o\0k"sv, "a spreadsheet", kToCsv},
+      {"PAR1", "", "Parquet",
+       "python3 -c \"import pandas; pandas.read_parquet('{in}').to_csv('{out}.csv', index=False)\""},
+      {"GRIB", "", "GRIB", "cdo -f nc copy {in} {out}.nc"}};
+  for (const Foreign& f : kForeign) {
+    if (contents.compare(0, f.begin.size(), f.begin) != 0 || contents.find(f.inside) == contents.npos)
+      continue;
+    const std::size_t dot = file.find_last_of("./");
+    const std::string stem = dot != file.npos && file[dot] == '.' ? file.substr(0, dot) : file;
+    throw std::runtime_error(
+        fmt::format("{}: {}: convert it first, by `{}`", file, f.name,
+                    fmt::format(fmt::runtime(f.command), fmt::arg("in", file), fmt::arg("out", stem))));
+  }
+}
 
 std::string Nodes::place(std::size_t i) const {
   return fmt::format("node {}", number(i)) +

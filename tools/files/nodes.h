@@ -91,6 +91,9 @@ struct Nodes {
 /// file, line or index, and remedy.
 Nodes read(const std::string& file, const ReadOptions& options = {});
 
+/// Throws if the contents are of a format that another program converts, and says how.
+void refuse_foreign(const std::string& file, const std::string& contents);
+
 /// True if it is a file, no pipe, whose first bytes are those of NetCDF's own formats or of HDF5.
 bool is_netcdf(const std::string& file);
 

@@ -2,14 +2,14 @@
 // of the sphere, the plane that touches it in the middle of the polygon. A cell is what lies on the left of
 // each of its sides, so a polygon with holes is cut along one line after the other. Coordinates are
 // differences from the middle: a polygon of metres has as many digits as one of continents.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <optional>
+#include <sstream>
+#include <string>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -213,15 +213,17 @@ void expect_no_crossing(const Rings& rings, std::size_t feature) {
         const bool is_forward =
             side.to.place == side.from.place + 1 || (side.from.place == last && side.to.place == 0);
         const Corner &from = is_forward ? side.from : side.to, &to = is_forward ? side.to : side.from;
-        return std::tuple(side.ring, from.place,
-                          fmt::format("side {}{} from {},{} to {},{}", from.place + 1,
-                                      rings.size() > 1 ? fmt::format(" of ring {}", side.ring + 1) : "",
-                                      from.u, from.v, to.u, to.v));
+        std::ostringstream text;
+        text.precision(15);
+        text << "side " << from.place + 1;
+        if (rings.size() > 1) text << " of ring " << side.ring + 1;
+        text << " from " << from.u << ',' << from.v << " to " << to.u << ',' << to.v;
+        return std::tuple(side.ring, from.place, text.str());
       };
       const auto first = named(sides[i]), second = named(sides[j]);
-      throw NoMesh(
-          fmt::format("feature {}: {} crosses or lies on {}: mend the polygon, say by ogr2ogr -makevalid",
-                      feature, std::get<2>(std::min(first, second)), std::get<2>(std::max(first, second))));
+      throw NoMesh("feature " + std::to_string(feature) + ": " + std::get<2>(std::min(first, second)) +
+                   " crosses or lies on " + std::get<2>(std::max(first, second)) +
+                   ": mend the polygon, say by ogr2ogr -makevalid");
     }
 }
 
@@ -481,9 +483,9 @@ class Clipper {
 
   [[noreturn]] void fail() const {
     throw NoMesh(
-        fmt::format("feature {}: its rings touch, overlap or lie in each other as those of no polygon "
-                    "do: mend the polygon, say by ogr2ogr -makevalid",
-                    feature_));
+        "feature " + std::to_string(feature_) +
+        ": its rings touch, overlap or lie in each other as those of no polygon do: mend the polygon, "
+        "say by ogr2ogr -makevalid");
   }
 
   Rings cut_at_sides(Rings rings, std::size_t cell) const {

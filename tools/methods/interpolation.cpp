@@ -408,6 +408,31 @@ void Interpolation::cubic_terms(const Point& p, std::vector<Share>& shares, std:
   }
 }
 
+void Interpolation::cubic_shares(const Point& p, const GradientTerms& gradients,
+                                 std::vector<Share>& shares) const {
+  if (shares.size() < 2) return;
+  std::vector<Point> ways;
+  cubic_terms(p, shares, ways);
+  for (std::size_t k = 0; k < ways.size(); ++k) {
+    const std::int32_t node = shares[k].node;
+    const auto i = static_cast<std::size_t>(node);
+    for (std::size_t t = gradients.begin[i - 1]; t < gradients.begin[i]; ++t) {
+      const double part = dot(ways[k], gradients.terms[t].part);
+      shares.push_back({gradients.terms[t].node, part});
+      shares.push_back({node, -part});
+    }
+  }
+  std::stable_sort(shares.begin(), shares.end(),
+                   [](const Share& a, const Share& b) { return a.node < b.node; });
+  std::size_t kept = 0;
+  for (const Share& s : shares)
+    if (kept > 0 && shares[kept - 1].node == s.node)
+      shares[kept - 1].part += s.part;
+    else
+      shares[kept++] = s;
+  shares.resize(kept);
+}
+
 double Interpolation::cubic_value(const Point& p, const std::vector<Share>& shares,
                                   const std::vector<double>& values,
                                   const std::vector<Point>& gradients) const {
@@ -480,8 +505,10 @@ files::Weights Interpolation::weights_at(const std::vector<Point>& places, Metho
   all.begin.resize(places.size() + 1);
   const std::vector<std::uint32_t> order = along_a_curve(places);
   std::vector<std::vector<Share>> of_blocks(blocks_of(places.size()));
+  const GradientTerms gradients = method == Method::cubic ? gradient_terms(mesh_) : GradientTerms();
   all.outside =
-      for_each_place(places, order, method, outside, [&](std::size_t k, const std::vector<Share>& shares) {
+      for_each_place(places, order, method, outside, [&](std::size_t k, std::vector<Share>& shares) {
+        if (method == Method::cubic) cubic_shares(places[order[k]], gradients, shares);
         std::vector<Share>& here = of_blocks[k / kBlock];
         here.insert(here.end(), shares.begin(), shares.end());
         all.begin[order[k] + std::size_t{1}] = shares.size();

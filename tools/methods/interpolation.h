@@ -11,6 +11,7 @@
 #include "files/weights.h"
 #include "geometry/weights.h"
 #include "methods/by_distance.h"
+#include "methods/gradients.h"
 #include "methods/triangulated.h"
 
 namespace methods {
@@ -74,6 +75,8 @@ class Interpolation {
                      const std::vector<Point>& gradients) const;
   /// The same as a sum over the shares, which get other parts: part * v + way.g of each.
   void cubic_terms(const Point& p, std::vector<Share>& shares, std::vector<Point>& ways) const;
+  /// The same with g as sums of values: the shares of more nodes, one for each in increasing order.
+  void cubic_shares(const Point& p, const GradientTerms& gradients, std::vector<Share>& shares) const;
 
   /// `nearest` has the value of the nearest node, at all places.
   enum class Method { linear, natural, cubic, nearest };
@@ -86,8 +89,8 @@ class Interpolation {
   /// of the contributing nodes. Cubic: see cubic_value.
   Result values_at(const std::vector<Point>& places, const std::vector<double>& values, Method method,
                    Outside outside) const;
-  /// The shares of each place, not of `cubic`. A value is their sum of products in their order; values_at
-  /// differs only where rounding has left the range of the nodes.
+  /// The shares of each place. A value is their sum of products in their order; values_at differs only where
+  /// rounding has left the range of the nodes, and by rounding for `cubic`.
   files::Weights weights_at(const std::vector<Point>& places, Method method, Outside outside) const;
 
   struct Nearest {

@@ -163,18 +163,12 @@ files::Nodes read_points(const Options& options) {
 void interpolate(Options& options) {
   if (options.points.empty() + options.grid.empty() + (options.step == 0) != 2)
     throw CLI::ValidationError("--to-points", "give one of --to-points, --to-grid, --grid-step");
-  if (!(options.step >= 0 && options.step <= 360))
-    throw CLI::ValidationError("--grid-step",
-                               fmt::format("{} is not a number of degrees above 0", options.step));
   if (!options.region.empty() && !options.points.empty())
     throw CLI::ValidationError("--region", "is of a grid, not of --to-points");
   if (options.registration == Registration::node && !options.points.empty())
     throw CLI::ValidationError("--registration", "is of a grid, not of --to-points");
   const bool has_values = !options.output.empty(), has_weights = !options.weights.empty();
   if (!has_values && !has_weights) throw CLI::RequiredError("--output or --weights");
-  if (has_weights && options.method == Interpolation::Method::cubic)
-    throw CLI::ValidationError("--weights",
-                               "are those of linear, natural or nearest: cubic has gradients too");
   if (has_weights && options.input.duplicates == Duplicates::mean)
     throw CLI::ValidationError("--weights", "are of one node for each place: say --duplicates first");
   if (!has_values && options.nearest_node)
@@ -280,7 +274,8 @@ void add_interpolate(CLI::App& app, Command& chosen) {
   sub->add_option("--to-grid", options->grid, "points of a grid, for example 180x360")
       ->type_name("NLATxNLON");
   sub->add_option("--grid-step", options->step, "the same grid, by the distance of its points")
-      ->type_name("DEGREES");
+      ->type_name("DEGREES")
+      ->check(above_0("number of degrees"));
   sub->add_option("--region", options->region,
                   "edges: WEST,EAST,SOUTH,NORTH; 170,-170 crosses the dateline [-180,180,-90,90]")
       ->type_name("DEGREES");

@@ -287,7 +287,16 @@ void add_edges(CLI::App& app, Output& output) {
 void Output::choose(std::optional<files::Format> otherwise) {
   std::optional<files::Format> found = files::format_of(to, file);
   if (!found) found = otherwise;
-  if (!found) throw CLI::ValidationError("--output", file + ": no format has this suffix: give --to");
+  if (!found) {
+    const std::string_view name(file);
+    const std::size_t dot = std::min(name.rfind('.'), name.size());
+    const std::string_view suffix = name.substr(dot);
+    if (suffix == ".gpkg" || suffix == ".shp" || suffix == ".kml")
+      throw CLI::ValidationError(
+          "--output", fmt::format("{0}: write GeoJSON and convert it: ogr2ogr {0} {1}.geojson", file,
+                                  name.substr(0, dot)));
+    throw CLI::ValidationError("--output", file + ": no format has this suffix: give --to");
+  }
   format = *found;
   if (radius > 0 && format != files::Format::mpas)
     throw CLI::ValidationError("--radius", "only MPAS meshes have a radius: --to mpas");

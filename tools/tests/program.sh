@@ -219,6 +219,9 @@ bad_command_lines)
   octahedron > nodes.txt
   refuses 2 "required" triangulate nodes.txt
   refuses 2 "mesh.xxx: no format has this suffix: give --to" triangulate nodes.txt -o mesh.xxx
+  refuses 2 "a.b.gpkg: write GeoJSON and convert it: ogr2ogr a.b.gpkg a.b.geojson" voronoi nodes.txt -o a.b.gpkg
+  printf 'SQLite format 3' > a.gpkg
+  refuses 1 "a.gpkg: a GeoPackage: convert it first, by" voronoi nodes.txt --clip-to a.gpkg -o failed.off
   refuses 2 "--radius: only MPAS meshes have a radius" triangulate nodes.txt --radius 6371229 -o mesh.off
   refuses 2 "--radius: '-1' is not a number of metres above 0" triangulate nodes.txt --radius=-1 -o mesh.mpas.nc
   refuses 2 "--edges: only UGRID meshes have edges" convert nodes.txt --edges -o mesh.off
@@ -822,14 +825,14 @@ bad_values)
   refuses 1 "values.txt: node 2 (line 2) has no value: remove it, or say --skip-missing" interpolate values.txt --grid-step 30 -o failed.txt
   refuses 2 "give one of --to-points, --to-grid, --grid-step" interpolate values.txt -o failed.txt
   refuses 2 "give one of --to-points, --to-grid, --grid-step" interpolate values.txt --grid-step 30 --to-grid 2x2 -o failed.txt
+  refuses 2 "--grid-step: '1km' is not a number of degrees above 0" interpolate values.txt --grid-step 1km -o failed.txt
   refuses 2 "--output or --weights is required" interpolate values.txt --grid-step 30
-  refuses 2 "--weights: are those of linear, natural or nearest" interpolate values.txt --grid-step 30 --method cubic --weights failed.nc
   refuses 2 "--weights: are of one node for each place" interpolate values.txt --grid-step 30 --duplicates mean --weights failed.nc
   printf '10 20 1\n30 40 1\n' > three.txt
   refuses 1 "three.txt: has 3 columns: say --coordinates lonlat or xyz" interpolate three.txt --grid-step 30 --weights failed.nc
   refuses 2 "--nearest-node: is for columns of the output" interpolate values.txt --grid-step 30 --nearest-node --weights failed.nc
   refuses 2 "180 degrees are not a multiple of 7" interpolate values.txt --grid-step 7 -o failed.txt
-  refuses 2 "--grid-step: -1 is not a number of degrees above 0" interpolate values.txt --grid-step -1 -o failed.txt
+  refuses 2 "--grid-step: '-1' is not a number of degrees above 0" interpolate values.txt --grid-step -1 -o failed.txt
   refuses 2 "'180' is not 2 numbers" interpolate values.txt --to-grid 180 -o failed.txt
   refuses 2 "expected NLATxNLON" interpolate values.txt --to-grid 0x10 -o failed.txt
   refuses 2 "expected WEST,EAST,SOUTH,NORTH" interpolate values.txt --grid-step 1 --region 0,10,20,10 -o failed.txt

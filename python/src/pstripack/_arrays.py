@@ -163,6 +163,16 @@ def vectors_of(lon: ArrayLike, lat: ArrayLike, degrees: bool, what: str) -> Floa
     return vectors.reshape(lon.shape + (3,)) + 0.0  # no -0.0
 
 
+def refuse_map_coordinates(points: Floats) -> None:
+    """Columns x, y, z that are no vectors to nodes of one sphere: the rule of the command `pstripack`."""
+    lengths = np.sqrt((points * points).sum(axis=1))
+    low, high = lengths.min(initial=np.inf), lengths.max(initial=0)
+    if high > 1.01 * low or (high > (1 + 1e-6) * low and np.all(np.abs(points[:, 2]) < 0.02 * low)):
+        raise ValueError(f"x, y, z of lengths {low:.4g} to {high:.4g} are not on one sphere: are these metres of a map "
+                         "projection? to_crs(4326) of geopandas makes degrees of them; pass columns=(x, y, z) if the vectors "
+                         "are directions")
+
+
 def fit_each_other(lon: Any, lat: Any) -> None:
     """Refuses axes of a grid in place of longitudes and latitudes of places."""
     shapes, dims = [np.shape(angle) for angle in (lon, lat)], [getattr(angle, "dims", None) for angle in (lon, lat)]

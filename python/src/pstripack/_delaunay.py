@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arrays import (Floats, Ints, are_degrees, fit_each_other, mesh_of, node_array, read_only, real, thread_count,
-                      to_xyz)
+from ._arrays import (Floats, Ints, are_degrees, fit_each_other, mesh_of, node_array, read_only, real,
+                      refuse_map_coordinates, thread_count, to_xyz)
 from ._errors import BadCoordinateError, CoincidentNodesError
 from ._globe import Globe, globe, notebook_html
 from ._measures import Measures, once
@@ -130,6 +130,8 @@ class Delaunay(Places, Measures, Presentation):
             return cls.from_lonlat(table[names[0]], table[names[1]], units=units or unit, threshold=threshold,
                                    duplicates=duplicates, threads=threads)
         points = np.stack([real(table[name], f"{name} of node") for name in names], axis=1)
+        if columns is None:
+            refuse_map_coordinates(points)
         mesh = cls(points, threshold=threshold, duplicates=duplicates, threads=threads)
         mesh._label(_labels_of(table))
         return mesh

@@ -50,15 +50,18 @@ class Presentation(Values):
         columns = _tables.named(values, lambda each: self._column(each, nodes, others))
         return _tables.dataset(self._mesh, cells, columns, self.labels, self._number(threads))
 
-    def to_geodataframe(self, what: str = "cells", values: Any = None, *, threads: Optional[int] = None) -> Any:
+    def to_geodataframe(self, what: str = "cells", values: Any = None, *, clip: Any = None,
+                        threads: Optional[int] = None) -> Any:
         """The Voronoi cells or the triangles as a geopandas.GeoDataFrame. Needs geopandas.
 
         Polygons are counterclockwise, cut at the dateline, closed along a pole inside them, and within 0.001 degrees of
-        the arcs: 110 m on the Earth. The column ``area_km2`` is the exact area of the whole cell or triangle on a sphere of
-        radius 6371 km; if you cut the polygons, it does not change.
+        the arcs: 110 m on the Earth. The column ``area_km2`` is the exact area of the cell or triangle on a sphere of
+        radius 6371 km, or of its part inside ``clip``, to a millionth of the area of ``clip``.
 
         ``what``: "cells" or "triangles". ``values``: one value of each cell or triangle: an array, a Series, or several
-        as a dict or DataFrame; those of cells enter by ``labels``. Columns called ``area_km2`` and ``geometry`` get
+        as a dict or DataFrame; those of cells enter by ``labels``. ``clip``: cuts the cells, before their sides are made
+        straight on the map, at a polygon or multipolygon of shapely, or at the union of those of a GeoSeries or
+        GeoDataFrame, in degrees, with sides straight on the map; a cell outside has the area 0 and no geometry. Columns called ``area_km2`` and ``geometry`` get
         ``_given`` appended. The index of cells is ``labels``. If the nodes lie in a hemisphere, the cells of boundary nodes
         share the rest of the sphere.
         """
@@ -66,7 +69,7 @@ class Presentation(Values):
         areas = self.cell_areas if cells else self.areas
         others = [] if cells else [len(areas)]
         columns = _tables.named(values, lambda each: self._column(each, len(self._mesh.points), others))
-        return _tables.geodataframe(self._mesh, cells, columns, areas, self.labels, self._number(threads))
+        return _tables.geodataframe(self._mesh, cells, columns, areas, clip, self.labels, self._number(threads))
 
     def plot(self, values: Any = None, what: str = "triangles", *, projection: str = "map",
              center: Optional[Tuple[float, float]] = None, radius: Optional[float] = None, ax: Any = None,

@@ -94,13 +94,35 @@ def kind(what: Any, values: Any) -> bool:
     return what == "cells"
 
 
-def geodataframe(mesh: _core.Mesh, cells: bool, values: "Dict[str, Column]", areas: "NDArray[np.float64]",
+def _polygons(clip: Any) -> "List[List[List[Tuple[float, float]]]]":
+    """The union of polygons of shapely or geopandas: for each polygon the outline and the holes, in degrees."""
+    crs = getattr(clip, "crs", None)
+    if crs is not None and not crs.is_geographic:
+        clip = clip.to_crs("EPSG:4326")
+    union = needed("shapely.ops", "to_geodataframe()").unary_union(getattr(clip, "geometry", clip))
+    parts = [part for part in getattr(union, "geoms", [union]) if getattr(part, "geom_type", None) == "Polygon"]
+    if not parts or union.is_empty:
+        raise ValueError(f"clip must be a polygon, not {getattr(union, 'geom_type', type(clip).__name__)}")
+    west, south, east, north = union.bounds
+    if not (-180 <= west <= east <= 540 and -90 <= south <= north <= 90):
+        raise ValueError(f"clip reaches from {west:g},{south:g} to {east:g},{north:g}, which are no longitudes and latitudes "
+                         'in degrees: pass clip.to_crs("EPSG:4326")')
+    return [[[(place[0], place[1]) for place in ring.coords] for ring in (part.exterior, *part.interiors)] for part in parts]
+
+
+def geodataframe(mesh: _core.Mesh, cells: bool, values: "Dict[str, Column]", areas: "NDArray[np.float64]", clip: Any,
                  labels: Any, threads: int) -> Any:
     geopandas = needed("geopandas", "to_geodataframe()")
     shapes = needed("shapely.geometry", "to_geodataframe()")
-    corners, begin, face = mesh.map_polygons(cells, threads)
+    if clip is None:
+        corners, begin, face = mesh.map_polygons(cells, threads)
+    elif cells:
+        corners, begin, face, areas = mesh.cut_cells(_polygons(clip), threads)
+    else:
+        raise ValueError("clip cuts cells: leave out what='triangles'")
     polygons = [shapes.Polygon(ring) for ring in np.split(corners, begin[1:-1])] if len(face) > 0 else []
-    first = np.searchsorted(face, np.arange(len(areas) + 1)).tolist()
+    polygons = [polygons[i] for i in np.argsort(face, kind="stable")]
+    first = np.searchsorted(np.sort(face), np.arange(len(areas) + 1)).tolist()
     geometry = [polygons[i] if j - i == 1 else shapes.MultiPolygon(polygons[i:j]) if j > i else None
                 for i, j in zip(first, first[1:])]
     own = {name + "_given" if name in ("area_km2", "geometry") else name: column for name, column in values.items()}
