@@ -11,6 +11,7 @@
 #include <array>
 #include <map>
 #include <numeric>
+#include <random>
 #include <set>
 #include <utility>
 #include <vector>
@@ -254,6 +255,31 @@ TEST(CellAreas, NameNodesThatAreTooClose) {
       EXPECT_EQ(nodes.first, 6);
       EXPECT_EQ(nodes.second, 7);
     }
+  }
+}
+
+/// Also where one cell has nearly all of the sphere, where the corners of some are one point, and where a
+/// cell is the difference of two areas that rounding cannot tell from each other.
+TEST(CellAreas, AddUpToTheSphere) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> along(-1, 1);
+  const double high = std::sqrt(0.75);
+  std::vector<std::vector<Point>> all{
+      {{0, 0, 1}, {0.5, 0, high}, {0, 0.5, high}, {-0.5, 0, high}, {0, -0.5, high}}};
+  for (const double size : {1.0, 0.2, 1e-3, 1e-7})
+    for (const double width : {1.0, 1e-3, 0.0})
+      for (const std::size_t n : {3u, 4u, 5u, 6u, 12u, 48u}) {
+        std::vector<Point>& set = all.emplace_back();
+        while (set.size() < n) set.push_back({1, size * along(random), size * width * along(random)});
+        if (width == 0) set[0] = {0, 0, 1};  // all others lie on one great circle
+      }
+  for (const std::vector<Point>& set : all) {
+    SCOPED_TRACE(testing::Message() << set.size() << " nodes, the second at " << set[1].y << " " << set[1].z);
+    Arrays<std::int32_t> arrays(plain_lists(set, Slots::canonical));
+    std::vector<double> area(set.size());
+    ASSERT_TRUE(cell_areas(arrays.view(), Directions(set.data(), set.size()), area.data()));
+    EXPECT_GE(*std::min_element(area.begin(), area.end()), 0);
+    EXPECT_NEAR(std::accumulate(area.begin(), area.end(), 0.0), 4 * std::acos(-1.0), 1e-13);
   }
 }
 
