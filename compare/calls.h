@@ -1,5 +1,5 @@
 #pragma once
-// Calls of TRMESH recorded by PSTRIPACK_CHECK (docs/recorded-calls.md).
+// Calls of TRMESH recorded by PSTRIPACK_CHECK (man page stripack-compare(1), RECORDINGS).
 
 #include <cstdint>
 #include <cstdio>

@@ -28,7 +28,8 @@ Checked check(const std::vector<pstripack::Point>& points, int ier, const std::v
 /// with node L. 0 if there is no such node.
 std::size_t nodes_before_duplicate(const std::vector<pstripack::Point>& points, int ier);
 
-/// The promises of docs/differences.md and docs/ier.md that our result breaks, one line each; empty if none.
+/// The promises of docs/differences.md and docs/api/ier.md that our result breaks, one line each; empty if
+/// none.
 std::vector<std::string> broken_promises(const std::vector<pstripack::Point>& points, const OurRun& run,
                                          const Checked& checked);
 

@@ -257,8 +257,7 @@ def wrong_codes(groups):
     values = {name: value for value, (name, _) in codes().items()}
     found = []
     for path, pattern in [("src/fortran/pstripack.f90", r"\b(pstripack_\w+) += (-\d+)"),
-                          ("src/fortran/pstripack_mpi.f90", r"\b(pstripack_\w+) += (-\d+)"),
-                          ("docs/ier.md", r"^\|(?P<value> -\d+) \| (PSTRIPACK_\w+)")]:
+                          ("src/fortran/pstripack_mpi.f90", r"\b(pstripack_\w+) += (-\d+)")]:
         for match in re.finditer(pattern, (ROOT / path).read_text(), re.MULTILINE):
             name, value = sorted(map(str.strip, match.groups()), reverse=True)
             if values.get(name.upper().replace("_SCVT_", "_"), value) != value:
@@ -267,20 +266,36 @@ def wrong_codes(groups):
                     for r in routines for value, when, _ in r.ier if "(new)" in when and value not in codes()]
 
 
-IER_HEAD = """# The codes of all routines
+IER_HEAD = """# Codes: what they mean, what to do
 
-Each routine's page also gives the state of the arrays. TRMESH and the C API, with remedies: [ier.md](../ier.md). *new*:
-not in the original; one line on stderr says why."""
+0 is success. -1, -2 and numbers above 0 are STRIPACK's own codes and silent. The others are *new*: they also print one
+line on stderr with the [node](../glossary.md) and the reason. Each routine's page gives the state of its arrays; after a
+negative code of TRMESH they are unchanged. The library never stops your program. OpenMP may, without memory.
+
+A number below 0 has one meaning everywhere, which `pstripack_strerror` returns:"""
+
+IER_MIDDLE = """**L > 0 of TRMESH**: drop one of the two nodes. Often a pole is in each column of a grid, or a meridian at 0 and 360.
+
+**Distributed meshes.** Every rank gets the same code; the mesh is then empty. Rank 0 prints the line; in `home`
+and for -8 every rank does. `mesh%error_points` returns the points of -5, -9 and -10.
+
+**Centroidal tessellations** return [a message](../scvt-interface.md#errors) and print nothing.
+
+## STRIPACK's own codes
+
+New codes of a routine are on its page."""
 
 
 def markdown_ier(groups):
+    remedies = tomllib.loads((ROOT / "docs/api/routines" / COMMON).read_text())["remedy"]
+    meanings = [[value, name, meaning, remedies.pop(value, "")] for value, (name, meaning) in codes().items()]
+    if remedies:
+        sys.exit(f"{COMMON}: no code {', '.join(remedies)}")
     rows = [[f"[{r.name}]({r.name.lower()}.md)" + (f" {r.ier_name}" if r.ier_name != "IER" else ""), value, when]
-            for _, routines in groups for r in routines for value, when, _ in r.ier if value != "0"]
-    meanings = [[value, name, meaning] for value, (name, meaning) in codes().items() if int(value) < -2]
-    return "\n\n".join([IER_HEAD, "A code below -2 has one meaning everywhere, which `pstripack_strerror` returns:",
-                        markdown_table(["code", "name in C", "meaning"], meanings),
-                        "-1, -2 and numbers above 0 are the original's:",
-                        markdown_table(["routine", "IER", "when"], rows)]) + "\n"
+            for _, routines in groups for r in routines for value, when, _ in r.ier
+            if value != "0" and not when.endswith("(new)")]
+    return "\n\n".join([IER_HEAD, markdown_table(["code", "name in C and Fortran", "meaning", "what to do, and more"], meanings),
+                        IER_MIDDLE, markdown_table(["routine", "IER", "when"], rows)]) + "\n"
 
 
 # ---- man pages ----

@@ -15,7 +15,8 @@ from pathlib import Path
 from markdown_page import MarkdownPage
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md", "docs/**/*.md", "examples/README.md"]
+PAGES = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md", "docs/**/*.md", "examples/README.md",
+         "src/README.md", "tests/README.md"]
 INTERFACES = ["src/cxx/capi/pstripack.h", "src/cxx/capi/pstripack_mpi.h", "src/fortran/pstripack.f90",
               "src/fortran/pstripack_mpi.f90"]
 

@@ -3,7 +3,7 @@
 !   plots
 !
 ! Writes trplot.eps, half the sphere, and vrplot.eps, a part of it with the nodes numbered. make-plots turns them
-! into the pictures of docs/plots.md.
+! into the pictures of docs/api/trplot.md.
 
       program plots
       implicit none

@@ -323,8 +323,13 @@ module stripack
 
     ! Draws a triangulation as an Encapsulated PostScript file.
     ! An orthographic view of the cap of angle A around (ELAT,ELON): a circle in a square of PLTSIZ inches,
-    ! the bounding box, on a page of 8.5 by 11 inches. Title and captions lie outside the square. Arcs are
-    ! straight segments; those with both ends outside the cap are omitted.
+    ! the bounding box, on a page of 8.5 by 11 inches. Title and captions lie outside the square: programs
+    ! that embed the picture cut them off, `gs mesh.eps` shows them. Arcs are straight segments; those with
+    ! both ends outside the cap are omitted.
+    ! Open the unit with a number of your own: those of NEWUNIT are negative and give IER = 1. TITLE is a
+    ! PostScript string. If its parentheses do not match, it is shown as plain text. The whole text is
+    ! composed in memory before the first record is written. examples/plots draws a triangulation and a
+    ! Voronoi diagram; `sh examples/plots/make-plots` builds it and makes PNG by Ghostscript.
     ! IER  0 done; 1 LUN, PLTSIZ or N out of range; 2 ELAT, ELON or A out of range; 3 the unit cannot be
     !      written; gfortran does not report a full disk; -5 a node is not finite, or its length is not within
     !      0.001..1000 (new); -6 out of memory (new); -13 not the lists of a triangulation (new).

@@ -35,7 +35,7 @@ else
   if ! abidiff --suppressions "$work/suppressions" $of_second --drop-private-types --no-architecture \
        --no-added-syms "$baseline" "$library" 2> "$work/errors" || [ -s "$work/errors" ]; then
     cat "$work/errors" >&2
-    echo "$library: the ABI is not that of $baseline. If that is intended: a new MAJOR version (docs/releasing.md)" >&2
+    echo "$library: the ABI is not that of $baseline. If that is intended: a new MAJOR version (CONTRIBUTING.md, Releases)" >&2
     exit 1
   fi
 fi

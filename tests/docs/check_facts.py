@@ -23,17 +23,18 @@ def compare(what, expected, found):
 
 
 def codes():
-    """Compares (name, value) of each code in the header and the modules with the tables of docs/ier.md, and of options and
-    reasons of centroidal tessellations with docs/scvt-interface.md."""
-    header = " ".join(re.findall(r"enum \{(.*?)\}", read("src/cxx/capi/pstripack.h"), re.DOTALL))
-    declared = re.findall(r"(PSTRIPACK_\w+) = (-?\d+)", header)
+    """Compares (name, value) of each code in the header and the modules with docs/api/ier.md, and of options and reasons
+    of centroidal tessellations with docs/scvt-interface.md."""
+    header = read("src/cxx/capi/pstripack.h")
+    declared = re.findall(r"(?:CODE\(|^  )(PSTRIPACK_\w+)(?: =|,) (-?\d+)", header, re.MULTILINE)
     for module in "pstripack", "pstripack_mpi":
         constants = re.findall(r"(?s)integer\(c_int32_t\), parameter :: .*?(?=\n\n)", read(f"src/fortran/{module}.f90"))
         declared += [(name.upper(), value) for text in constants
                      for name, value in re.findall(r"(pstripack_\w+) = (-?\d+)", text)]
-    declared = {pair for pair in declared if pair[0] != "PSTRIPACK_EVERY_RANK"}  # a rank, not a code
+    # A rank, and a second name of PSTRIPACK_COINCIDENT.
+    declared = {pair for pair in declared if pair[0] not in ("PSTRIPACK_EVERY_RANK", "PSTRIPACK_SCVT_COINCIDENT")}
     of_scvt = {(name, value) for name, value in declared if name.startswith("PSTRIPACK_SCVT_") and int(value) >= 0}
-    for document, expected in ("docs/ier.md", declared - of_scvt), ("docs/scvt-interface.md", of_scvt):
+    for document, expected in ("docs/api/ier.md", declared - of_scvt), ("docs/scvt-interface.md", of_scvt):
         tables = re.findall(r"(?m)^\| (-?\d+) \| (PSTRIPACK_\w+) \|", read(document))
         compare(document, expected, {(name, value) for value, name in tables})
 

@@ -2,7 +2,7 @@
 """Fails unless every linked file and picture exists, every anchor is a heading, and every page can be reached from
 README.md by links.
 
-  check_links.py ROOT          the Markdown pages of ROOT, of its docs and its examples
+  check_links.py ROOT          the Markdown pages of ROOT, of its docs, examples, src and tests
   check_links.py --html DIR    the links between the HTML pages of DIR
 """
 import html.parser
@@ -63,7 +63,8 @@ def main():
         problems, _ = check(root, pages)
     else:
         root = Path(sys.argv[1]).resolve()
-        files = [path for pattern in ("*.md", "docs/**/*.md", "examples/**/*.md") for path in sorted(root.glob(pattern))]
+        files = [path for pattern in ("*.md", "docs/**/*.md", "examples/**/*.md", "src/*.md", "tests/*.md")
+                 for path in sorted(root.glob(pattern))]
         pages = {path: MarkdownPage(path) for path in files}
         problems, linked = check(root, pages)
         problems += orphans(root, linked)

@@ -22,8 +22,7 @@ integer(8), allocatable :: number(:)
 """
 CONTEXT = {
     "modes.md": ARGUMENTS + OF_RANKS,
-    "recorded-calls.md": ARGUMENTS,
-    "plots.md": ARGUMENTS,
+    "comparison.md": ARGUMENTS,
     "scvt-interface.md": ARGUMENTS + OF_RANKS + """real(8) :: cells, energy
 real(8), allocatable :: xc(:), yc(:), zc(:), mass(:)
 character(80) :: message

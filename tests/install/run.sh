@@ -54,7 +54,7 @@ print("f2py:", nt, "triangles, area", sum(stripack.areas(*np.c_[x, y, z][t - 1])
 fi
 for program in pc_r8 pc_r4 pc_8arg pc_i8 pc_c; do "$work/$program"; done
 "$work/pc_c" | grep "^c_api: pstripack $version,"
-# The command of docs/plots.md needs no build folder.
+# The command of docs/api/trplot.md needs no build folder.
 if command -v gs > /dev/null; then (cd "$work" && sh "$prefix/share/doc/pstripack/examples/plots/make-plots" && head -c 8 trplot.png vrplot.png | grep -c PNG | grep -x 2); fi
 for package in stripack stripack_r4 stripack_8arg stripack_i8 stripack_f90 pstripack pstripack_fortran; do
   pkg-config --exact-version="$version" $package

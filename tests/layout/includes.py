@@ -4,29 +4,11 @@ import pathlib
 import re
 import sys
 
-# What each folder of src/cxx may include directly; it may also include what these folders may include.
-ENGINE = {
-    "base": [],
-    "geometry": ["base"],
-    "mesh": ["geometry"],
-    "lists": ["mesh"],
-    "stripack": ["lists"],
-    "parallel": ["mesh"],
-    "trmesh": ["stripack", "parallel"],
-    "scvt": ["trmesh"],
-    "observe": ["trmesh"],
-    "mpi": ["scvt"],
-    "pool": ["observe", "mpi"],
-    "capi": ["pool"],
-}
-# Folders outside the engine.
-OUTSIDE = {
-    "tools": list(ENGINE),
-    "compare": ["tools", "legacy_stripack"],
-    "legacy_stripack": [],
-    "python": ["tools"],
-}
-ALLOWED = {**ENGINE, **OUTSIDE}
+# The table of src/README.md: what each folder may include directly; it may also include what these folders may include.
+MAP = (pathlib.Path(__file__).resolve().parents[2] / "src/README.md").read_text()
+ALLOWED = {folder: re.findall(r"`(\w+)`", may) for folder, may in re.findall(r"(?m)^\| `(\w+)` \|.*\|([^|]*)\|$", MAP)}
+OUTSIDE = ("tools", "legacy_stripack", "compare", "python")  # the others are folders of src/cxx
+ENGINE = [folder for folder in ALLOWED if folder not in OUTSIDE]
 # In the engine only src/cxx/mpi and the public header pstripack_mpi.h may use MPI.
 WITH_MPI = {"src/cxx/mpi", "src/cxx/capi", "tools", "compare"}
 
@@ -45,7 +27,7 @@ def main(root):
     sources = {}  # file -> layer
     for folder in sorted((root / "src/cxx").iterdir()):
         if folder.is_dir() and folder.name not in ENGINE:
-            wrong.append(f"src/cxx/{folder.name}: no such layer; tests/layout/includes.py has the list")
+            wrong.append(f"src/cxx/{folder.name}: no such layer; src/README.md has the map")
         elif folder.is_dir():
             sources.update({file: folder.name for file in folder.rglob("*") if file.suffix in (".h", ".cpp")})
     for name in OUTSIDE:

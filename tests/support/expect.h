@@ -36,7 +36,7 @@ inline std::size_t boundary_nodes(const Mesh& m) {
   return count;
 }
 
-/// For any finite input: the documented code (docs/ier.md), and lists or untouched arrays accordingly.
+/// For any finite input: the documented code (docs/api/ier.md), and lists or untouched arrays accordingly.
 inline ::testing::AssertionResult is_as_promised(const Nodes& nodes, const Mesh& m) {
   const int ier = expected_ier(nodes);
   if (m.ier != ier) return ::testing::AssertionFailure() << "IER = " << m.ier << ", expected " << ier;

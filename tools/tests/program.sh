@@ -62,8 +62,8 @@ documented_tables)
   "$PSTRIPACK" triangulate --help | tr -s '\n ' ' ' | grep -q "up to 0.19 degrees, 21 km" || fail "--help: geodetic latitudes"
   rows_of "Densities:" scvt | sed -n 's/^  \([a-z]*\).*/\1/p' | grep . | sort -u > help.densities
   [ -s help.densities ] || fail "'pstripack scvt --help' has no densities"
-  sed -n '/^  Formulas: /,/(`--help`)/p' "$DOCUMENT" | grep -o '`[a-z]*`' | tr -d '`' | sort -u > document.densities
-  diff document.densities help.densities || fail "docs/pstripack.md has other densities than --help"
+  sed -n '/^Formulas: /,/(`--help`)/p' "$(dirname "$DOCUMENT")/scvt.md" | grep -o '`[a-z]*`' | tr -d '`' | sort -u > document.densities
+  diff document.densities help.densities || fail "docs/scvt.md has other densities than --help"
   ;;
 
 pipes)

@@ -11,7 +11,7 @@
 //   radius           80u of itself; beyond 60 degrees 64u rad
 //   circumcentre     192u of the radius, beyond 30 degrees 384u, and the rounding of its three coordinates
 //   area             64u of itself and 2^-1074; that of a cell 128u of itself, NaN below 2^-1022
-// These are bounds of the analysis in measures.cpp; docs/trust.md has the errors seen.
+// These are bounds of the analysis in measures.cpp; tests/README.md has the errors seen.
 
 #include <cmath>
 #include <cstddef>

@@ -4,7 +4,7 @@
 //
 // If every triangle is counterclockwise and one direction lies in one triangle only, the mesh covers the
 // sphere once. If then every arc is locally Delaunay, by the exact predicate with its tie rule, it is the
-// Delaunay triangulation: proof in docs/design.md, "Warm start".
+// Delaunay triangulation: proof in docs/internals/design.md, "Warm start".
 
 #include "mesh/flips.h"
 

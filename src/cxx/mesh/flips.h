@@ -59,10 +59,9 @@ class MovingMesh {
   /// Turns the mesh into the Delaunay triangulation of its nodes at their positions, by the predicates on
   /// coordinates with their tie rule; flips() is then the number of arcs flipped. Returns false if a
   /// triangle is not counterclockwise, an arc cannot be flipped, or a new triangulation is faster; the mesh
-  /// must then be discarded. All nodes must have length_is_one. Why the tests suffice: docs/design.md,
-  /// "Warm start". Parallel. Throws std::bad_alloc.
-  /// Confirm::directions: also false if the mesh may not be that of the directions; all nodes must then have
-  /// length_is_one_up_to_rounding.
+  /// must then be discarded. All nodes must have length_is_one. Why the tests suffice:
+  /// docs/internals/design.md, "Warm start". Parallel. Throws std::bad_alloc. Confirm::directions: also false
+  /// if the mesh may not be that of the directions; all nodes must then have length_is_one_up_to_rounding.
   bool repair(Confirm confirm = Confirm::nothing);
   std::size_t flips() const { return flips_; }
 

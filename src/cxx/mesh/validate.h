@@ -43,7 +43,8 @@ struct Verdict {
 ///  - every interior arc is locally Delaunay (exact sign, ties by the symbolic rule);
 ///  - the sphere, or the convex hull of the nodes in a hemisphere, is covered exactly once: every
 ///    star winds once, the boundary is locally convex (exact signs), the surface is connected and its
-///    Euler number is that of a sphere or a disc. docs/design.md proves that these local tests suffice.
+///    Euler number is that of a sphere or a disc. docs/internals/design.md proves that these local tests
+///    suffice.
 /// p: n >= 3 nodes, finite and non-zero. Accepts any number of triangles and any indices. O(n log n). Throws
 /// std::bad_alloc.
 Verdict is_valid(const Point* p, std::size_t n, const Triangle* triangles, std::size_t count,

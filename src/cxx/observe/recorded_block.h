@@ -1,6 +1,6 @@
 #pragma once
 // The format of calls of TRMESH that PSTRIPACK_CHECK writes: a stream of blocks, each with this header and a
-// body. docs/recorded-calls.md describes it for programs that read it.
+// body. The man page stripack-compare(1) describes it for programs that read it.
 
 #include <cstdint>
 

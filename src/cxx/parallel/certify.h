@@ -1,6 +1,6 @@
 #pragma once
 // The fourth phase: patches compare lists of the triangles that two of them answer for, until all match.
-// Docs/parallel.md.
+// docs/internals/parallel.md.
 
 #include "parallel/coincidence.h"
 #include "parallel/divide.h"

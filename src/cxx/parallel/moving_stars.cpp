@@ -5,7 +5,7 @@
 //      the flip to those of the four nodes, which accept it or not, and each changes the stars that it has
 //
 // After each exchange the stars of all ranks together are one mesh again. Why the tests suffice:
-// docs/parallel.md, "Warm start".
+// docs/internals/parallel.md, "Warm start".
 
 #include "parallel/moving_stars.h"
 

@@ -1,6 +1,6 @@
 #pragma once
-// A triangulation whose nodes stay on the ranks that bring them and move a little: docs/parallel.md, "Warm
-// start".
+// A triangulation whose nodes stay on the ranks that bring them and move a little:
+// docs/internals/parallel.md, "Warm start".
 
 #include <cstddef>
 #include <cstdint>

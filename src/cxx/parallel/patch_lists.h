@@ -1,5 +1,5 @@
 #pragma once
-// The triangles that a patch answers for and that other patches must have, too: docs/parallel.md.
+// The triangles that a patch answers for and that other patches must have, too: docs/internals/parallel.md.
 
 #include <array>
 #include <cstddef>

@@ -1,6 +1,6 @@
 #pragma once
-// Nodes of the last call that other ranks bring now, or the same ranks in another order: docs/parallel.md,
-// "Warm start".
+// Nodes of the last call that other ranks bring now, or the same ranks in another order:
+// docs/internals/parallel.md, "Warm start".
 //
 // Each rank compares its numbers with those of the last call, and tells those that have come and those that
 // have gone to the rank that their hash names, since the caller alone knows where they went. That rank tells

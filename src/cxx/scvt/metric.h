@@ -23,7 +23,9 @@
 // at most 2, since (n.(u_i-u_j))^2 <= 2 (n.u_i)^2 + 2 (n.u_j)^2, and components with eigenvalues above
 // 2/kPasses^2 are solved within 27 %. So z = P v with P symmetric and positive definite, and the condition
 // number is smaller by about kPasses^2. All this needs sums over neighbours only, so it has the same bits
-// for any number of threads and ranks.
+// for any number of threads and ranks. (Preconditioned L-BFGS: Jiang, Byrd, Eskow and Schnabel, University of
+// Colorado CU-CS-982-04, 2004; for centroidal tessellations, with a graph Laplacian, Hateley, Wei and Chen,
+// J. Sci. Comput. 63, 2015.)
 
 #include <cstddef>
 #include <vector>

@@ -8,7 +8,7 @@
 namespace pstripack {
 
 /// STRIPACK's TRMESH with canonical lists and exact decisions (docs/differences.md). IER is 0, -1, -2, L > 0,
-/// -4 or -5 (docs/ier.md). On a negative code nothing is written. Under PSTRIPACK_ORDER=original
+/// -4 or -5 (docs/api/ier.md). On a negative code nothing is written. Under PSTRIPACK_ORDER=original
 /// (original_rules.h) nodes are inserted one by one on the calling thread, and the lists are the original's
 /// if these are a correct triangulation; four nodes on one circle may then have either diagonal. Under
 /// PSTRIPACK_ORDER=bitwise lists and IER are the original's if its IER is not negative and its lists are a

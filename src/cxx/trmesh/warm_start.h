@@ -1,5 +1,5 @@
 #pragma once
-// A call of TRMESH that starts from the mesh of an earlier one: docs/design.md, "Warm start".
+// A call of TRMESH that starts from the mesh of an earlier one: docs/internals/design.md, "Warm start".
 
 #include <cstddef>
 #include <cstdint>
