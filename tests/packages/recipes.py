@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Reads the recipes for conda, EasyBuild and containers, and the workflow for GitHub, which nothing here can run. They must
-be correct YAML or Python, have the project's version, and name existing files, options and presets. Containers install
+"""Reads the recipes for Spack, conda, EasyBuild and containers, and the workflow for GitHub, which nothing here can run.
+They must be correct YAML or Python, have the project's version, and name existing files, options and presets. Containers install
 the same packages as docs/relink.md.
 
-  other_recipes.py ROOT
+  recipes.py ROOT
 """
 import re
 import sys
@@ -29,6 +29,15 @@ exec(compile(recipe.read_text(), recipe, "exec"), names)
 assert names["version"] == version
 assert recipe.name == f"pstripack-{version}-{names['toolchain']['name']}-{names['toolchain']['version']}.eb"
 
+spack = ROOT / "packaging/spack/package.py"
+text = spack.read_text()
+compile(text, spack, "exec")
+assert f'version("{version}")' in text and f"pstripack@{version}" in text
+least = re.search(r"cmake_minimum_required.VERSION ([0-9.]+[0-9])[.]{3}", project)[1]
+assert f'"cmake@{least}:"' in text
+used = set(re.findall(r'"(PSTRIPACK_[A-Z_]+)"', text))
+assert used and used <= options | {"PSTRIPACK_PYTHON_DIR"}, f"{spack}: no such options: {used - options}"
+
 containers = [ROOT / "packaging/containers" / name for name in ("Dockerfile", "pstripack.def")]
 told = set(re.search(r"apt-get install -y (g\+\+.*?)\ncmake", (ROOT / "docs/relink.md").read_text(), re.DOTALL)[1].split())
 for container in containers:
@@ -44,4 +53,4 @@ assert scripts == [".ci/run", "./test.sh"] and all((ROOT / script).is_file() for
 for file in [ROOT / "packaging/conda/recipe.yaml", recipe]:
     used = set(re.findall(r"-D(PSTRIPACK_\w+)", file.read_text()))
     assert used and used <= options, f"{file}: no such options: {used - options}"
-print("conda, EasyBuild, containers, workflow: read")
+print("Spack, conda, EasyBuild, containers, workflow: read")
