@@ -1,23 +1,36 @@
 #!/bin/sh
 # From a bare Debian 12 machine to the main job: a legacy SCVT program linked with the original STRIPACK and
-# with PSTRIPACK, the two meshes compared; stripack-compare on 100,000 random points; the same program with
-# four MPI ranks behind it, and the distributed one, against the run without.
-# May be repeated. Usage: ./quickstart.sh
+# with PSTRIPACK, the two meshes compared; stripack-compare on 100,000 random points. With `mpi` also: the same
+# program with four MPI ranks behind it, and the distributed one, against the run without.
+# May be repeated. Usage: ./quickstart.sh [mpi]
 set -eu
 cd "$(dirname "$0")"
-build=build
-work=$build/quickstart
+mpi=OFF build=build-quickstart
+case ${1:-} in
+  "") lists=main ;;
+  mpi) lists=mpi mpi=ON build=build-quickstart-mpi ;;
+  *) echo "usage: ./quickstart.sh [mpi]" >&2; exit 2 ;;
+esac
+work=$build/meshes
 
-sh cmake/install-packages.sh
+sh cmake/install-packages.sh $lists
+mkdir -p $build $work
+
+# The original. Of libncarg-dev it takes one file, and none of the 110 packages that libncarg-dev depends on.
+find_ngmath() { find /usr/lib "$build/ncarg" -name libngmath.a 2> /dev/null | head -n 1; }
+if [ -z "$(find_ngmath)" ]; then
+  (cd $build && apt-get download -q libncarg-dev && dpkg-deb -x libncarg-dev_*.deb ncarg)
+fi
 
 echo "Building in $build ..."
 [ -f $build/CMakeCache.txt ] || generator="-G Ninja"
 # shellcheck disable=SC2086  # two words on purpose
-cmake -S . -B $build ${generator:-} -DCMAKE_BUILD_TYPE=Release
-cmake --build $build --parallel "$(nproc)" --target scvt_original scvt_pstripack scvt_mpi \
-  pstripack_run stripack-compare
+cmake -S . -B $build ${generator:-} -DCMAKE_BUILD_TYPE=Release -DSTRIPACK_NGMATH="$(realpath "$(find_ngmath)")" \
+  -DPSTRIPACK_TESTS=OFF -DPSTRIPACK_PYTHON=OFF -DPSTRIPACK_WITH_MPI=$mpi
+# shellcheck disable=SC2046  # three words or one
+cmake --build $build --parallel "$(nproc)" --target scvt_original scvt_pstripack stripack-compare \
+  $([ $mpi = OFF ] || echo scvt_mpi pstripack_run)
 
-mkdir -p $work
 for library in original pstripack; do
   echo
   echo "scvt_legacy, 10,242 generators, ten iterations, linked with $library"
@@ -34,7 +47,13 @@ echo
 echo "stripack-compare on 100,000 random points"
 $build/compare/stripack-compare --points random --n 100000 --seed 1 --threads "1,$(nproc)"
 
-# MPI. As root, and with more ranks than cores, Open MPI runs only if told to.
+if [ $mpi = OFF ]; then
+  echo
+  echo "The same with MPI ranks: ./quickstart.sh mpi"
+  exit 0
+fi
+
+# As root, and with more ranks than cores, Open MPI runs only if told to.
 if [ "$(id -u)" -eq 0 ]; then export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; fi
 echo
 echo "MPI ranks on the $(nproc) cores of one machine: the same mesh; how fast, only more cores can tell"

@@ -1,23 +1,36 @@
 #!/bin/sh
-# Installs on Debian 12 the packages that PSTRIPACK's build, tests and comparisons need, and those named as arguments.
-# Needs no root rights if all are installed. Called by quickstart.sh and test.sh.
-# Usage: install-packages.sh [package...]
+# Installs packages on Debian 12 by what they are for, and those named as arguments. Needs no root rights if all are
+# installed. Called by quickstart.sh, test.sh, and scripts in tests.
+# Usage: install-packages.sh [main|mpi] [package...]
+#   main     to build the libraries and compare them with the original
+#   mpi      these, and Open MPI
+#   neither  all that the build, the tests and the comparisons use
 set -eu
 
-packages="
-  g++ gfortran cmake ninja-build pkg-config dpkg-dev
+main="
+  g++ gfortran cmake ninja-build
   libboost-dev
-  libcli11-dev nlohmann-json3-dev libfmt-dev libnetcdf-dev
+  libcli11-dev nlohmann-json3-dev libfmt-dev
+"
+mpi="
+  libopenmpi-dev openmpi-bin
+"
+tests="
+  ccache pkg-config dpkg-dev
+  libnetcdf-dev libncarg-dev
   libgtest-dev libcgal-dev libgmp-dev libmpfr-dev libqhull-dev
   abigail-tools lintian environment-modules iproute2
   netcdf-bin python3-netcdf4 python3-xarray python3-meshio
   python3-dev pybind11-dev python3-pybind11
   python3-pandas python3-geopandas python3-matplotlib python3-cartopy
   python3-scipy python3-mpmath python3-pytest python3-mypy python3-pip python3-setuptools python3-wheel
-  python3 python3-numpy python3-yaml doxygen gnuplot-nox librsvg2-bin ghostscript libjs-three
-  libncarg-dev
-  libopenmpi-dev openmpi-bin
-  $*"
+  python3 python3-numpy python3-yaml doxygen librsvg2-bin ghostscript libjs-three
+"
+case ${1:-} in
+  main) shift; packages="$main $*" ;;
+  mpi) shift; packages="$main $mpi $*" ;;
+  *) packages="$main $mpi $tests $*" ;;
+esac
 
 missing=""
 for package in $packages; do

@@ -4,7 +4,6 @@
 #   finish_shared_library, hide_archives, install_library: see below
 # PSTRIPACK_ONLY_POSIX makes all checks fail. The case posix of tests/systems/systems.sh builds and tests that.
 include(CheckCXXSourceCompiles)
-include(CheckCXXSymbolExists)
 include(CheckLinkerFlag)
 
 option(PSTRIPACK_ONLY_POSIX "Do without what POSIX lacks, on any system: a test of what others get" OFF)
@@ -15,7 +14,6 @@ if(PSTRIPACK_ONLY_POSIX)
   set(PSTRIPACK_HAS_VERSION_SCRIPTS FALSE)
   set(PSTRIPACK_HAS_NODELETE FALSE)
   set(PSTRIPACK_HAS_EXCLUDE_LIBS FALSE)
-  set(PSTRIPACK_HAS_UCONTEXT FALSE)
 else()
   check_cxx_source_compiles("
     #include <sys/mman.h>
@@ -33,7 +31,6 @@ else()
   check_linker_flag(CXX LINKER:--version-script=${CMAKE_BINARY_DIR}/CMakeFiles/check.map PSTRIPACK_HAS_VERSION_SCRIPTS)
   check_linker_flag(CXX LINKER:-z,nodelete PSTRIPACK_HAS_NODELETE)
   check_linker_flag(CXX LINKER:--exclude-libs,ALL PSTRIPACK_HAS_EXCLUDE_LIBS)
-  check_cxx_symbol_exists(makecontext ucontext.h PSTRIPACK_HAS_UCONTEXT)
 endif()
 option(PSTRIPACK_WITH_POOL "Serve unchanged serial programs by MPI ranks (pstripack-run)" ${PSTRIPACK_HAS_POOL})
 if(PSTRIPACK_WITH_POOL AND NOT PSTRIPACK_HAS_POOL)

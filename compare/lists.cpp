@@ -19,8 +19,6 @@ namespace {
 using pstripack::Triangle;
 using pstripack::Triangles;
 
-enum ExitCode { kEqual = 0, kDifferent = 1 };
-
 enum class Verdict { same_bytes, same_triangles, different };
 
 struct Pair {
@@ -115,7 +113,7 @@ int compare_lists(const ListsOptions& options) {
       "{} call{}: {} same bytes, {} same triangles in other lists, {} different, {} only in one file\n",
       number, number == 1 ? "" : "s", count[0], count[1], count[2], missing);
   const bool equal = count[2] == 0 && missing == 0 && (count[1] == 0 || !options.bytes);
-  return equal ? kEqual : kDifferent;
+  return equal ? kExplained : kAgainstUs;
 }
 
 }  // namespace comparison

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "point_sets.h"
+#include "files/nodes.h"
 
 namespace comparison {
 namespace {
@@ -40,7 +40,9 @@ pstripack::Triangles read_triangles(const std::string& file, std::size_t nodes) 
 
 MeshFiles read_mesh(const std::string& prefix) {
   MeshFiles mesh;
-  mesh.points = point_sets::read(prefix + "_points.txt");
+  files::ReadOptions options;
+  options.coordinates = files::Coordinates::xyz;
+  mesh.points = files::read(prefix + "_points.txt", options).points;
   mesh.triangles = read_triangles(prefix + "_triangles.txt", mesh.points.size());
   pstripack::make_canonical(mesh.triangles);
   return mesh;

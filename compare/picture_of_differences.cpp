@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
@@ -11,9 +10,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "pictures/font.h"
-#include "pictures/sheet.h"
-#include "pictures/view.h"
 #include "point_sets.h"
 
 namespace comparison {
@@ -143,39 +139,33 @@ std::string deciding_circle(const std::vector<index_t>& nodes, const View& view)
                      a.y + y, radius);
 }
 
-/// Finds places for node numbers that do not overlap and cover as few arcs as possible.
+/// Finds places for node numbers that do not overlap.
 class Labels {
  public:
-  Labels(const std::vector<Arc>& arcs, const View& view) {
-    for (const Arc& arc : arcs) segments_.push_back({view(arc.first), view(arc.second)});
-  }
-
   /// Where the text for the node at p begins; none if no place is free.
-  std::optional<Place> place(const Place& p, const std::string& text, double size) {
-    const double width = pictures::text_width(text, size), gap = 4, ascent = 0.73 * size;
-    std::optional<Place> best;
-    pictures::Box box_of_best{};
-    std::size_t fewest = SIZE_MAX;
+  std::optional<Place> place(const Place& p, const std::string& digits, double size) {
+    constexpr double kDigit = 0.64;  // width of a digit of DejaVu Sans, in heights of the font
+    const double width = kDigit * size * static_cast<double>(digits.size()), gap = 4, ascent = 0.73 * size;
     for (const double x : {p.x + gap, p.x - gap - width, p.x - width / 2})
       for (const double y : {p.y - gap, p.y + gap + ascent, p.y + ascent / 2}) {
-        const pictures::Box box{x - 1, y - ascent - 1, x + width + 1, y + 1};
-        const bool on_node = box.left < p.x && p.x < box.right && box.top < p.y && p.y < box.bottom;
-        if (on_node || box.left < 0 || box.top < 0 || box.right > kPanel || box.bottom > kPanel ||
-            std::any_of(taken_.begin(), taken_.end(), [&](const auto& t) { return overlap(t, box); }))
+        const Box box{{x - 1, y - ascent - 1}, {x + width + 1, y + 1}};
+        if (overlap(box, {p, p}) || !in_panel(box.low) || !in_panel(box.high) ||
+            std::any_of(taken_.begin(), taken_.end(), [&](const Box& t) { return overlap(t, box); }))
           continue;
-        const auto crossed = static_cast<std::size_t>(
-            std::count_if(segments_.begin(), segments_.end(), [&](const pictures::Outline& segment) {
-              return !clipped_line(segment, {box.left, box.top, box.right, box.bottom}).empty();
-            }));
-        if (crossed < fewest) fewest = crossed, best = Place{x, y}, box_of_best = box;
+        taken_.push_back(box);
+        return Place{x, y};
       }
-    if (best) taken_.push_back(box_of_best);
-    return best;
+    return std::nullopt;
   }
 
  private:
-  std::vector<pictures::Outline> segments_;
-  std::vector<pictures::Box> taken_;
+  struct Box {
+    Place low, high;
+  };
+  static bool overlap(const Box& a, const Box& b) {
+    return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y;
+  }
+  std::vector<Box> taken_;
 };
 
 std::string numbers(const std::vector<Arc>& arcs, const std::vector<index_t>& deciding, const View& view) {
@@ -189,7 +179,7 @@ std::string numbers(const std::vector<Arc>& arcs, const std::vector<index_t>& de
   nodes.erase(std::remove_if(nodes.begin(), nodes.end(), outside), nodes.end());
   if (nodes.size() > kMostNumbers) nodes.clear();
 
-  Labels labels(arcs, view);
+  Labels labels;
   std::string text;
   const auto write = [&](index_t node, const char* kind, double radius, double size) {
     const Place p = view(node);
@@ -213,24 +203,19 @@ std::string panel(double x, double y, const std::string& title, const std::strin
       x, y + 14, title, y + kTitle, kPanel, content);
 }
 
+/// At most three lines.
 std::string caption(double y, const std::string& text) {
-  constexpr std::size_t kLines = 3;
-  constexpr double kSize = 12, kWidest = kWidth - 2 * kMargin;
+  constexpr std::size_t kLines = 3, kLetters = 105;  // of a line
   std::string result;
   std::size_t begin = 0;
-  for (std::size_t line = 0; line < kLines && begin < text.size(); ++line) {
-    std::size_t end = text.size();
-    while (pictures::text_width(text.substr(begin, end - begin), kSize) > kWidest) {
-      const std::size_t blank = text.rfind(' ', end - 1);
-      if (blank == text.npos || blank <= begin) break;
-      end = blank;
-    }
-    result += fmt::format(
-        "<text class=\"caption\" x=\"{}\" y=\"{}\">{}</text>\n", kMargin,
-        y + 16 * static_cast<double>(line + 1),
-        pictures::escaped_for_xml(pictures::shortened(text.substr(begin, end - begin), kSize, kWidest)));
-    begin = text.find_first_not_of(' ', end);
-    if (begin == text.npos) break;
+  for (std::size_t line = 1; line <= kLines && begin < text.size(); ++line) {
+    std::size_t end = std::min(begin + kLetters, text.size());
+    if (end < text.size())
+      if (const std::size_t blank = text.rfind(' ', end); blank != text.npos && blank > begin) end = blank;
+    result += fmt::format("<text class=\"caption\" x=\"{}\" y=\"{}\">{}</text>\n", kMargin,
+                          y + 16 * static_cast<double>(line),
+                          pictures::escaped_for_xml(text.substr(begin, end - begin)));
+    begin = text[std::min(end, text.size() - 1)] == ' ' ? end + 1 : end;
   }
   return result;
 }

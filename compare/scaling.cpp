@@ -14,17 +14,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "csv_file.h"
 #include "in_a_row.h"
 #include "lloyd_step.h"
 #include "median.h"
@@ -32,12 +29,14 @@
 #include "mpi/collective_trmesh.h"
 #include "mpi/distributed_evaluator.h"
 #include "mpi/distributed_mesh.h"
+#include "number_in.h"
 #include "point_sets.h"
 #include "pool/area_layout.h"
 #include "scvt/evaluator.h"
 #include "scvt/front.h"
 #include "standard_streams.h"
 #include "trmesh/trmesh.h"
+#include "usual_cost.h"
 
 namespace {
 
@@ -50,12 +49,11 @@ const std::string kScvt = "scvt";      ///< a mode: an evaluation of centroidal 
 constexpr Phase kIntegrate = Phase::gather;
 
 struct Settings {
-  std::string mode, family = "random", owners;
+  std::string mode, family = "random";
   std::size_t n = 1000000;
   int repeats = 5;
   double change = 0;  ///< fraction of the points that change ranks before each call of a moving mesh
   bool warm = false;  ///< calls may reuse the mesh of the last call
-  bool per_rank = false;
 };
 
 double seconds() { return clock_seconds(CLOCK_MONOTONIC); }
@@ -102,75 +100,24 @@ class SerialCall {
   std::vector<std::int32_t> list_, lptr_, lend_;
 };
 
-struct Call {
-  double wall, root;
-  GroupCost cost;
+/// What each call of the ranks took on this rank.
+struct Calls {
+  std::vector<double> wall;
+  std::vector<ParallelCost> cost;
 };
 
-/// Prints the processor time of each phase: per rank the median over the calls, since other ranks on the same
-/// processor disturb single calls.
-void print(MpiCommunicator& ranks, const Settings& s, const std::vector<double>& serial,
-           const std::vector<Call>& calls) {
-  std::vector<ParallelCost> mine;
-  std::vector<double> wall, root;
-  for (const Call& call : calls) {
-    mine.push_back(call.cost.mine);
-    wall.push_back(call.wall);
-    root.push_back(call.root);
-  }
-  const Parcels all = ranks.all_gather(mine.data(), mine.size() * sizeof mine[0]);
+/// Prints a line of names and values: of the phases, the processor time of the slowest rank.
+void print(MpiCommunicator& ranks, const Settings& s, const std::vector<double>& serial, const Calls& calls) {
+  const GroupCost cost = usual_cost(ranks, calls.cost);
   if (ranks.rank() != 0) return;
-  double slowest[Phase::phases] = {}, triangulate = 0;
-  for (const std::size_t begin : all.begin) {
-    if (begin == all.begin.back()) break;
-    const auto* const of_rank = reinterpret_cast<const ParallelCost*>(all.bytes.data() + begin);
-    double usual[Phase::phases];
-    for (int phase = 0; phase < Phase::phases; ++phase) {
-      std::vector<double> spent;
-      for (std::size_t k = 0; k < calls.size(); ++k) spent.push_back(of_rank[k].cpu_seconds[phase]);
-      usual[phase] = median(spent);
-      slowest[phase] = std::max(slowest[phase], usual[phase]);
-      if (phase == Phase::triangulate) triangulate += usual[phase] / ranks.size();
-    }
-    if (s.per_rank)
-      fmt::print(
-          "rank {} divide {:.6f} triangulate {:.6f} merge {:.6f} lists {:.6f} gather {:.6f} halo {} bytes {} "
-          "rounds {}\n",
-          begin / (all.bytes.size() / static_cast<std::size_t>(ranks.size())), usual[Phase::divide],
-          usual[Phase::triangulate], usual[Phase::merge], usual[Phase::lists], usual[Phase::gather],
-          of_rank->halo, of_rank->bytes_sent, of_rank->rounds);
-  }
-  const GroupCost& cost = calls.back().cost;
+  const double(&slowest)[Phase::phases] = cost.maximum.cpu_seconds;
   fmt::print(
-      "row n {} ranks {} serial {} wall {} root {} divide {} triangulate {} merge {} lists {} "
-      "gather {} mean {} halo {} bytes {} rounds {}\n",
-      s.n, ranks.size(), median(serial), median(wall), median(root), slowest[Phase::divide],
+      "row n {} ranks {} serial {} wall {} divide {} triangulate {} merge {} lists {} "
+      "gather {} halo {} bytes {} rounds {}\n",
+      s.n, ranks.size(), median(serial), median(calls.wall), slowest[Phase::divide],
       slowest[Phase::triangulate], slowest[Phase::merge], slowest[Phase::lists], slowest[Phase::gather],
-      triangulate, cost.total.halo, cost.total.bytes_sent, cost.maximum.rounds);
+      cost.total.halo, cost.total.bytes_sent, cost.maximum.rounds);
   std::fflush(stdout);
-}
-
-/// Rank 0 writes each triangle with the rank that lists it: x1,y1,z1,x2,y2,z2,x3,y3,z3,owner.
-void write_owners(DistributedMesh& mesh, const Settings& s) {
-  std::vector<std::int64_t> corners(3 * static_cast<std::size_t>(mesh.own().triangles()));
-  mesh.own().triangles(corners.data());
-  MpiCommunicator& ranks = mesh.ranks();
-  const Parcels all = ranks.all_gather(corners.data(), corners.size() * sizeof corners[0]);
-  if (ranks.rank() != 0) return;
-  const std::vector<Point> points = point_sets::make(s.family, s.n, 1);
-  CsvFile csv(s.owners, "x1,y1,z1,x2,y2,z2,x3,y3,z3,owner");
-  for (std::size_t rank = 0; rank + 1 < all.begin.size(); ++rank) {
-    const auto* const corner = reinterpret_cast<const std::int64_t*>(all.bytes.data() + all.begin[rank]);
-    const std::size_t count = (all.begin[rank + 1] - all.begin[rank]) / sizeof *corner;
-    for (std::size_t i = 0; i < count; i += 3) {
-      std::string row;
-      for (std::size_t k = i; k < i + 3; ++k) {
-        const Point& p = points[static_cast<std::size_t>(corner[k]) - 1];
-        row += fmt::format("{:.9g},{:.9g},{:.9g},", p.x, p.y, p.z);
-      }
-      csv.row(row + std::to_string(rank));
-    }
-  }
 }
 
 /// TRMESH as a pool's ranks execute it: arrays and lists are in memory shared with rank 0, or, as between
@@ -312,19 +259,21 @@ void run_on_ranks(const Settings& s) {
       points = s.mode == kScvt ? scvt::front_generators(s.n, density) : point_sets::make(s.family, s.n, 1);
     const std::size_t n = points.size();
     std::vector<double> alone;
-    std::vector<Call> calls;
+    Calls calls;
     // Alternate, so that disturbances affect both. prepare() is called before each call of the ranks.
     const auto measure = [&](const auto& serial, const auto& call, const auto& prepare) {
-      while (calls.size() < static_cast<std::size_t>(s.repeats)) {
+      while (calls.cost.size() < static_cast<std::size_t>(s.repeats)) {
         in_a_row([&](bool counts) {
           const double spent = on_rank_0(ranks, serial);
           if (counts) alone.push_back(spent);
         });
         in_a_row([&](bool counts) {
           prepare();
-          const double start = seconds(), spent = cpu_seconds();
+          const double start = seconds();
           const GroupCost cost = call();
-          if (counts) calls.push_back({seconds() - start, cpu_seconds() - spent, cost});
+          if (!counts) return;
+          calls.wall.push_back(seconds() - start);
+          calls.cost.push_back(cost.mine);
         });
       }
     };
@@ -348,7 +297,6 @@ void run_on_ranks(const Settings& s) {
                 return report.cost;
               },
               nothing);
-      if (!s.owners.empty()) write_owners(mesh, s);
     } else if (s.mode == kScvt) {
       scvt::LocalEvaluator local(density);
       Evaluation serial(local, points);
@@ -427,41 +375,31 @@ double path(const Row& r) {
 }
 
 void head(bool of_scvt) {
-  fmt::print(
-      "{:>9} {:>5} {:>8} | {:>7} {:>11} {:>7} {:>7} {:>7} | {:>8} {:>9} {:>10} {:>9} | {:>9} {:>10} {:>6} "
-      "{:>9}\n",
-      "N", "ranks", "clock", "divide", "triangulate", "merge", "lists", of_scvt ? "cells" : "gather", "path",
-      "speed-up", "efficiency", "imbalance", "halo", "bytes", "rounds", "root ns/N");
+  fmt::print("{:>9} {:>5} {:>8} | {:>7} {:>11} {:>7} {:>7} {:>7} | {:>8} {:>9} | {:>9} {:>10} {:>6}\n", "N",
+             "ranks", "clock", "divide", "triangulate", "merge", "lists", of_scvt ? "cells" : "gather",
+             "path", "speed-up", "halo", "bytes", "rounds");
 }
 
-void show(const Row& r, bool of_pool) {
-  const double ms = 1e3, speed_up = r.at("serial") / path(r);
+void show(const Row& r) {
+  const double ms = 1e3;
   fmt::print(
-      "{:>9.0f} {:>5.0f} {:>8.2f} | {:>7.2f} {:>11.2f} {:>7.2f} {:>7.2f} {:>7.2f} | {:>8.2f} {:>9.2f} "
-      "{:>10.2f} {:>9.2f} | "
-      "{:>9.0f} {:>10.0f} {:>6.0f} {:>9}\n",
+      "{:>9.0f} {:>5.0f} {:>8.2f} | {:>7.2f} {:>11.2f} {:>7.2f} {:>7.2f} {:>7.2f} | {:>8.2f} {:>9.2f} | "
+      "{:>9.0f} "
+      "{:>10.0f} {:>6.0f}\n",
       r.at("n"), r.at("ranks"), ms * r.at("wall"), ms * r.at("divide"), ms * r.at("triangulate"),
-      ms * r.at("merge"), ms * r.at("lists"), ms * r.at("gather"), ms * path(r), speed_up,
-      speed_up / r.at("ranks"), r.at("triangulate") / r.at("mean"), r.at("halo"), r.at("bytes"),
-      r.at("rounds"),
-      of_pool ? fmt::format("{:.1f}", 1e9 * (r.at("root") - path(r) + r.at("gather")) / r.at("n")) : "");
+      ms * r.at("merge"), ms * r.at("lists"), ms * r.at("gather"), ms * path(r), r.at("serial") / path(r),
+      r.at("halo"), r.at("bytes"), r.at("rounds"));
   std::fflush(stdout);
 }
 
 const std::vector<std::string> kModes{"distributed", "pool", "messages"};
 const std::vector<std::string> kAllModes{"distributed", "pool", "messages", kScvt};
-const std::vector<std::string> kKinds{"constant-n", "constant-work"};
-
-std::vector<std::string> with_moving(std::vector<std::string> names) {
-  names.push_back(kMoving);
-  return names;
-}
+const std::vector<std::string> kKinds{"constant-n", kMoving};
 
 struct Tables {
   std::vector<int> ranks{1, 2, 4, 8, 16, 32, 64};
   std::vector<std::size_t> sizes{10000, 100000, 1000000};
-  std::vector<std::string> modes = kModes, kinds = kKinds;
-  std::string csv;
+  std::vector<std::string> modes = kModes, kinds{kKinds.front()};
 };
 
 /// Runs warm and cold calls in turn, so that disturbances affect both. Prints the least time of all calls.
@@ -503,31 +441,12 @@ void print_moving(const std::string& self, Settings s, const Tables& t) {
 }
 
 void print_tables(const std::string& self, Settings s, const Tables& t) {
-  std::optional<CsvFile> csv;
-  if (!t.csv.empty())
-    csv.emplace(
-        t.csv,
-        "mode,points,n,ranks,serial,clock,divide,triangulate,merge,lists,gather,path,mean_triangulate,"
-        "halo,bytes,rounds");
-  const auto add = [&](std::size_t n, int ranks) {
-    s.n = n;
-    const Row r = measure(self, s, ranks);
-    show(r, s.mode != "distributed" && s.mode != kScvt);
-    if (csv)
-      csv->row(
-          fmt::format("{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{},{}",
-                      s.mode, s.family, r.at("n"), ranks, r.at("serial"), r.at("wall"), r.at("divide"),
-                      r.at("triangulate"), r.at("merge"), r.at("lists"), r.at("gather"), path(r),
-                      r.at("mean"), r.at("halo"), r.at("bytes"), r.at("rounds")));
-    return r;
-  };
   fmt::print(
       "Milliseconds. clock: of a call, {} processors shared by all ranks. divide ... gather: processor time "
-      "of the "
-      "slowest rank.\npath: their sum. Speed-up: PROJECTED, serial TRMESH over path. imbalance: slowest rank "
-      "over "
-      "the mean, triangulate.\nhalo, bytes: of all ranks. scvt: an evaluation of generators that move by "
-      "Lloyd's method, after\nthose of a front; serial: the same on one thread; cells: integrals and sums.\n",
+      "of the slowest rank.\npath: their sum. Speed-up: PROJECTED, serial TRMESH over path. halo, "
+      "bytes: of all ranks. scvt: an evaluation of generators that "
+      "move by Lloyd's method, after\nthose of a front; serial: the same on one thread; cells: integrals and "
+      "sums.\n",
       sysconf(_SC_NPROCESSORS_ONLN));
   for (const std::string& kind : t.kinds) {
     if (kind == kMoving) {
@@ -537,26 +456,18 @@ void print_tables(const std::string& self, Settings s, const Tables& t) {
     for (const std::string& mode : t.modes) {
       s.mode = mode;
       s.warm = mode == kScvt;
-      const bool has_constant_n = kind == "constant-n";
-      fmt::print("\n{}, {}, constant {}\n",
+      fmt::print("\n{}, {}, constant N\n",
                  mode == "pool"       ? "pool on one machine, arrays and lists in rank 0's memory"
                  : mode == "messages" ? "pool on several machines, arrays and lists sent from and to rank 0"
                  : mode == kScvt      ? "scvt, generators at home"
                                       : "distributed, points at home",
-                 mode == kScvt ? "density 1" : s.family,
-                 has_constant_n ? "N" : fmt::format("N/P = {}", t.sizes.front()));
+                 mode == kScvt ? "density 1" : s.family);
       head(mode == kScvt);
-      if (has_constant_n) {
-        for (const std::size_t n : t.sizes) {
-          std::map<int, double> clock;
-          for (const int p : t.ranks) clock[p] = add(n, p).at("wall");
-          if (mode == kScvt && clock.count(1) > 0 && clock.count(2) > 0)
-            fmt::print("2 ranks over 1, N = {}, by the clock: {:.2f} times as fast\n", n,
-                       clock[1] / clock[2]);
+      for (const std::size_t n : t.sizes)
+        for (const int p : t.ranks) {
+          s.n = n;
+          show(measure(self, s, p));
         }
-      } else {
-        for (const int p : t.ranks) add(t.sizes.front() * static_cast<std::size_t>(p), p);
-      }
     }
   }
 }
@@ -570,37 +481,27 @@ int main(int argc, char** argv) {
   Settings s;
   Tables t;
   app.add_option("--ranks", t.ranks, "numbers of ranks")->delimiter(',')->capture_default_str();
-  app.add_option("--sizes", t.sizes, "numbers of nodes; the first is N/P of the tables of constant work")
-      ->delimiter(',')
-      ->capture_default_str();
+  app.add_option("--sizes", t.sizes, "numbers of nodes")->delimiter(',')->capture_default_str();
   app.add_option("--family", s.family, "point set, as in stripack-compare")->capture_default_str();
   app.add_option("--repeats", s.repeats, "calls of each kind, three in a row; their median is shown")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   app.add_option("--change", s.change,
                  "with --tables moving: part of the points that change ranks before each call")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(number_in(0, 1));
   app.add_option("--modes", t.modes, "only tables of these modes; `scvt` runs only if named")
       ->delimiter(',')
       ->check(CLI::IsMember(kAllModes))
       ->capture_default_str();
   app.add_option("--tables", t.kinds, "only tables of these kinds")
       ->delimiter(',')
-      ->check(CLI::IsMember(with_moving(kKinds)))
+      ->check(CLI::IsMember(kKinds))
       ->capture_default_str();
-  app.add_option("--csv", t.csv, "also add rows, in seconds, to this file");
   app.add_option("--mode", s.mode, "no tables: one run of this mode on the ranks of this mpirun")
-      ->check(CLI::IsMember(with_moving(kAllModes)));
+      ->check(CLI::IsMember({"distributed", "pool", "messages", kScvt, kMoving}));
   app.add_option("--n", s.n, "nodes of that run")->capture_default_str();
-  app.add_flag("--per-rank", s.per_rank, "with --mode: also print seconds, halo and bytes of each rank");
-  app.add_option("--owners", s.owners,
-                 "with --mode distributed: write the corners of each triangle and its rank to this new file");
   try {
     app.parse(argc, argv);
-    if (!s.owners.empty() && s.mode != "distributed")
-      throw CLI::ValidationError("--owners", "only with --mode distributed");
-    if (s.per_rank && (s.mode.empty() || s.mode == kMoving))
-      throw CLI::ValidationError("--per-rank", "only with --mode, and not moving");
     // Calls with the same nodes must not reuse the last mesh: measure first calls.
     if (s.mode != kMoving && s.mode != kScvt) setenv("PSTRIPACK_WARM_START", "0", 1);
     if (s.mode == kMoving)

@@ -15,7 +15,9 @@
 #include "commands.h"
 #include "families.h"
 #include "mesh_files.h"
+#include "number_in.h"
 #include "our_calls.h"
+#include "pstripack/reading.h"
 #include "run_cases.h"
 #include "standard_streams.h"
 
@@ -107,21 +109,8 @@ void add_run_options(CLI::App& app, RunOptions& options) {
   list("--file", options.files,
        "all that pstripack reads: text (lines of `lon lat` or `x y z`, tables; - is stdin), NetCDF, GeoJSON, "
        "OFF");
-  app.add_option("--columns", options.read.columns, "lon,lat or x,y,z: names, or in text numbers");
-  app.add_option_function<std::string>(
-         "--units",
-         [&](const std::string& word) {
-           options.read.units = word == "degrees" ? files::Units::degrees : files::Units::radians;
-         },
-         "of angles, where the file does not say: degrees, radians")
-      ->check(CLI::IsMember({"degrees", "radians"}).description(""));
-  app.add_option_function<std::string>(
-         "--coordinates",
-         [&](const std::string& word) {
-           options.read.coordinates = word == "xyz" ? files::Coordinates::xyz : files::Coordinates::lonlat;
-         },
-         "of the files, where the columns do not tell: lonlat, xyz")
-      ->check(CLI::IsMember({"lonlat", "xyz"}).description(""));
+  program::add_reading(app, options.read);
+  options.read.lengths_decide = false;
   app.add_option("--n", options.n, "number of nodes of a family [10000]");
   app.add_option("--seed", options.seed, "seed of families and of shuffling [1]");
   choice("--order", options.orders, "given, shuffled, sorted (by latitude) [given]",
@@ -136,7 +125,7 @@ void add_run_options(CLI::App& app, RunOptions& options) {
   choice("--partition", options.partitions, "bisection, stripes [bisection]", {"bisection", "stripes"});
   add_original_options(app, options.original);
   app.add_option("--timeout", options.timeout, "processor seconds after which the original is stopped [120]")
-      ->check(CLI::PositiveNumber.description(""));
+      ->check(number_in(1e-6, 1e9));
   app.add_option("--repeats", options.repeats,
                  "number of calls (fewer above 10 s); their median time is shown [3]")
       ->check(CLI::Range(1, 1000).description(""));
@@ -153,7 +142,7 @@ void add_mesh(CLI::App& app, MeshOptions& options, Command& chosen) {
   mesh->add_option("A", options.a, "prefix of A_points.txt and A_triangles.txt")->required();
   mesh->add_option("B", options.b, "prefix of the other mesh")->required();
   mesh->add_option("--tolerance", options.tolerance, "largest distance of equal points")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_in(0, 1e300))
       ->capture_default_str();
   mesh->add_option("--seconds", options.seconds, "seconds in trmesh of A and of B, for the table")
       ->expected(2);
@@ -206,7 +195,7 @@ exit code
   replay
       ->add_option("--timeout", options.timeout,
                    "processor seconds after which the original is stopped, each call")
-      ->check(CLI::PositiveNumber)
+      ->check(number_in(1e-6, 1e9))
       ->capture_default_str();
   replay->add_option("--show", options.show, "largest number of differences of each kind printed per call")
       ->capture_default_str();

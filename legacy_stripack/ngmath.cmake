@@ -7,7 +7,7 @@ set(routines addnod areas bdyadd bnodes circum covsph delarc delnb delnod edge g
 
 set(objects cscrlist.o cstransd.o csscoordd.o)
 set(renamed "cscrlist_ ngmath_crlist_\ncstransd_ trans_\ncsscoordd_ scoord_\n")
-set(exported "trans_; scoord_; crlist_; ngmath_cscrlist_;")
+set(exported "trans_; scoord_; crlist_;")
 foreach(routine IN LISTS routines)
   list(APPEND objects cs${routine}.o)
   string(APPEND renamed "cs${routine}_ ${routine}_\n")
@@ -21,10 +21,9 @@ file(WRITE ${dir}/exported.map "{ global: ${exported} local: *; };\n")
 add_custom_command(
   OUTPUT ${dir}/original.o
   COMMAND ${CMAKE_AR} x ${STRIPACK_NGMATH} ${objects}
-  # CSCRLIST unchanged, for the benchmark, and a copy for crlist_ with another SCOORD (ngmath_crlist.c).
-  COMMAND ${CMAKE_OBJCOPY} --redefine-sym cscrlist_=ngmath_cscrlist_ cscrlist.o cscrlist_as_shipped.o
+  # CSCRLIST with another SCOORD (ngmath_crlist.c).
   COMMAND ${CMAKE_OBJCOPY} --redefine-sym csscoordd_=ngmath_keep_centre_ cscrlist.o
-  COMMAND ${CMAKE_LINKER} -r -o original.o ${objects} cscrlist_as_shipped.o
+  COMMAND ${CMAKE_LINKER} -r -o original.o ${objects}
   COMMAND ${CMAKE_OBJCOPY} --redefine-syms=renamed.txt original.o
   WORKING_DIRECTORY ${dir}
   DEPENDS ${STRIPACK_NGMATH} ${dir}/renamed.txt

@@ -21,27 +21,16 @@ HERE = Path(__file__).resolve().parent
 # In a source distribution the parts of the project are in a folder.
 PROJECT = HERE / "project" if (HERE / "project").is_dir() else HERE.parent
 PARTS = ("CMakeLists.txt", "LICENSE", "cmake", "docs/CMakeLists.txt", "packaging", "python/CMakeLists.txt",
-         "python/METADATA.in", "python/core", "python/src", "src/cxx", "tools/files", "tools/globe.cmake", "tools/methods", "tools/pictures",
+         "python/pyproject.toml", "python/core", "python/src", "src/cxx", "tools/files", "tools/globe.cmake", "tools/methods", "tools/pictures",
          "tools/point_sets")
 OFF = ("TESTS", "TOOLS", "EXAMPLES", "WITH_MPI", "WITH_FORTRAN", "SHARED")
-# What CMake says if something is missing, and what to say instead of all its lines.
-MISSING = {r"CMake 3\.\d+ or higher is required": "CMake 3.20 (pip install cmake)",
-           r"No CMAKE_C(XX)?_COMPILER could be found": "a C++ compiler (Debian: apt-get install g++)",
-           r"is not (able to compile a simple test program|a full path to an existing compiler)": "a C++ compiler that works (see CXX)",
-           r"(?i)Could not find (a package configuration file provided by \"|)Boost": "Boost's headers, version 1.74 or later "
-                                                                                       "(Debian: apt-get install libboost-dev)"}
+NEEDS = ("pstripack: to build it, CMake 3.20 (pip install cmake), a C++ compiler and Boost's headers, version 1.74 or later, are needed "
+         "(Debian: apt-get install cmake g++ libboost-dev)")
 
 
 def configure(command):
-    try:
-        run = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    except FileNotFoundError:
-        sys.exit("pstripack: to build it, this is missing: CMake 3.20 (pip install cmake)")
-    if run.returncode != 0:
-        for said, missing in MISSING.items():
-            if re.search(said, re.sub(r"\s+", " ", run.stdout)):
-                sys.exit(f"pstripack: to build it, this is missing: {missing}")
-        sys.exit(run.stdout)
+    if shutil.which(command[0]) is None or subprocess.run(command).returncode != 0:
+        sys.exit(NEEDS)
 
 
 class CMakeBuild(build_ext):

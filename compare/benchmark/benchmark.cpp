@@ -25,6 +25,7 @@
 #include "curves.h"
 #include "measuring.h"
 #include "model.h"
+#include "number_in.h"
 #include "orders.h"
 #include "original.h"
 #include "point_sets.h"
@@ -63,19 +64,18 @@ std::string is_point_set(const std::string& name) {
 
 int main(int argc, char** argv) {
   fill_standard_streams();
-  CLI::App app(
-      "Times of PSTRIPACK, the original STRIPACK, CGAL and Qhull on one thread, and their ratios beside\n"
-      "the required ones. The exit code does not depend on them.",
-      "pstripack-benchmark");
+  CLI::App app("Times of PSTRIPACK, the original STRIPACK, CGAL and Qhull on one thread, and their ratios.",
+               "pstripack-benchmark");
   app.footer("cases: " + CLI::detail::join(case_names(), " "));
   CaseSettings cases;
   app.add_flag("--quick", cases.quick, "only cases with fewer than 10^6 nodes, three repeats");
-  app.add_option("--only", cases.only,
-                 "only these cases, for example random-1e4,latlon-1e5; `distributions...`, `scvt`, "
-                 "`warm-start`, `threads`, `busy` and `queries-...` run only if named")
+  app.add_option(
+         "--only", cases.only,
+         "only these cases, for example random-1e4,latlon-1e5; those from `warm-start` on run only if "
+         "named")
       ->delimiter(',')
       ->check(CLI::IsMember(case_names()));
-  app.add_option("--sets", cases.sets, "only these point sets in the cases `distributions...`")
+  app.add_option("--sets", cases.sets, "only these point sets in the case `distributions`")
       ->delimiter(',')
       ->check(is_point_set);
   const std::string repeats_help =
@@ -106,10 +106,9 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember(contender_names()));
   curves_app
       .add_option("--time-limit", curves.time_limit, "seconds of one measurement, including its preparation")
-      ->check(CLI::PositiveNumber)
+      ->check(number_in(1e-6, 1e6))
       ->capture_default_str();
   curves_app.add_option("--repeats", curves.repeats, repeats_help)->check(CLI::Range(1, 1000));
-  curves_app.add_option("--csv", curves.csv, "also add rows to this file");
 
   DescentSettings descents;
   CLI::App& descents_app = *app.add_subcommand(
@@ -121,7 +120,6 @@ int main(int argc, char** argv) {
       .add_option("--evaluations", descents.evaluations, "largest number of evaluations for each method")
       ->check(CLI::Range(1, 10000000))
       ->capture_default_str();
-  descents_app.add_option("--csv", descents.csv, "also add rows to this file");
 
   Model model;  // see as_model
   app.add_option("--be-the-model", model.calls)->group("");

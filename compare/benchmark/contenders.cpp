@@ -65,23 +65,6 @@ Stripack original(const Library& library) {
   return stripack(method(&Library::trmesh), method(&Library::trlist), method(&Library::crlist));
 }
 
-std::optional<Stripack> original_as_shipped(const Library& library) {
-  using Cscrlist = void(const int*, const int*, const double*, const double*, const double*, const int*,
-                        const int*, int*, int*, int*, int*, int*, double*, double*, double*, int*);
-  auto* const cscrlist = reinterpret_cast<Cscrlist*>(library.symbol("ngmath_cscrlist_"));
-  if (!cscrlist) return std::nullopt;
-  Stripack s = original(library);
-  s.crlist =
-      stripack(&trmesh_, &trlist_,
-               [cscrlist](const int* n, const int* ncol, const double* x, const double* y, const double* z,
-                          const int* list, const int* lend, int* lptr, int* lnew, int* ltri, int* listc,
-                          int* nb, double* rlat, double* rlon, double*, double* rc, int* ier) {
-                 cscrlist(n, ncol, x, y, z, list, lend, lptr, lnew, ltri, listc, nb, rlat, rlon, rc, ier);
-               })
-          .crlist;
-  return s;
-}
-
 #ifdef BENCHMARK_WITH_CGAL
 const Witness cgal{
     fmt::format("{}, Delaunay_triangulation_on_sphere_2, -O3 -march=native, no lists", cgal_version()),

@@ -2,7 +2,6 @@
 // The contenders: STRIPACK's routines, ours and the original's; CGAL and Qhull for comparison.
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,10 +37,6 @@ struct Stripack {
 
 Stripack ours();
 Stripack original(const legacy_stripack::Library& library);
-/// The same with libngmath's CSCRLIST, which returns latitudes and longitudes instead of centres. Empty if
-/// the original is not libngmath.
-std::optional<Stripack> original_as_shipped(const legacy_stripack::Library& library);
-
 /// A library that triangulates without writing lists.
 struct Witness {
   std::string description;  ///< "none found" if the build found none

@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
-#include <optional>
 #include <stdexcept>
 #include <thread>
 
 #include "contenders.h"
-#include "csv_file.h"
 #include "measuring.h"
 #include "model.h"
 #include "orders.h"
@@ -127,8 +125,7 @@ std::vector<Contender> contenders(const std::string& self, const std::vector<std
   return all;
 }
 
-void run_order(const std::string& order, const CurveSettings& settings, std::vector<Course> courses,
-               CsvFile* csv) {
+void run_order(const std::string& order, const CurveSettings& settings, std::vector<Course> courses) {
   fmt::print("\n{} nodes, order {}: microseconds a node, and what that is of the first column\n{:>9}",
              settings.points, order, "N");
   for (const Course& c : courses) fmt::print(" {:>17} {:>7}", c.contender.name, "");
@@ -142,15 +139,8 @@ void run_order(const std::string& order, const CurveSettings& settings, std::vec
     measure_all(courses, task, settings);
     const Samples& first = courses.front().samples;
     fmt::print("{:>9}", n);
-    for (const Course& c : courses) {
+    for (const Course& c : courses)
       fmt::print(" {:>17} {:>7}", microseconds(c.samples, n), ratio(c.samples, first));
-      const double seconds = c.samples.empty() ? 0 : c.samples.median();
-      if (csv != nullptr)
-        csv->row(fmt::format("{},{},{},{},{},{},{:.6g},{:.6g},{},{}", settings.points, order, n,
-                             c.contender.name, c.contender.threads, c.samples.size(), seconds,
-                             1e6 * seconds / n, ratio(c.samples, first),
-                             c.samples.empty() ? c.ended : "returned"));
-    }
     fmt::print("\n");
   }
   for (const Course& c : courses)
@@ -170,11 +160,7 @@ void run_curves(const std::string& self, const CurveSettings& settings,
   for (const Contender& c : contenders(self, settings.contenders, original_library))
     courses.push_back({c, {}, ""});
   if (courses.empty()) throw std::invalid_argument("none of these contenders is in this build");
-  std::optional<CsvFile> csv;
-  if (!settings.csv.empty())
-    csv.emplace(settings.csv,
-                "points,order,n,contender,threads,repeats,seconds,microseconds_a_node,over_first,status");
-  for (const std::string& order : settings.orders) run_order(order, settings, courses, csv ? &*csv : nullptr);
+  for (const std::string& order : settings.orders) run_order(order, settings, courses);
 }
 
 }  // namespace benchmark

@@ -16,13 +16,11 @@ struct CurveSettings {
   std::vector<std::string> contenders;  ///< none: all of contender_names()
   double time_limit = 60;               ///< limit of one measurement in seconds
   int repeats = 0;
-  std::string csv;
 };
 
 const std::vector<std::string>& contender_names();
 
-/// Writes one table per order to stdout, and the rows to a CSV file if one is named. `self`: path of this
-/// program.
+/// Writes one table per order to stdout. `self`: path of this program.
 void run_curves(const std::string& self, const CurveSettings& settings,
                 const std::optional<legacy_stripack::Original>& original_library);
 

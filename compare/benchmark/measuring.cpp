@@ -9,8 +9,6 @@
 #include <fstream>
 #include <limits>
 
-#include "in_a_row.h"
-
 namespace benchmark {
 
 using legacy_stripack::Outcome;
@@ -54,13 +52,6 @@ double Samples::median() const {
   std::vector<double> s = seconds_;
   std::sort(s.begin(), s.end());
   return s.size() % 2 ? s[s.size() / 2] : (s[s.size() / 2 - 1] + s[s.size() / 2]) / 2;
-}
-
-void measure_in_a_row(Samples& samples, const std::function<double()>& seconds) {
-  in_a_row([&](bool counts) {
-    const double measured = seconds();
-    if (counts) samples.add(measured);
-  });
 }
 
 std::string microseconds(const Samples& samples, int n) {

@@ -41,9 +41,6 @@ class Samples {
   std::vector<double> seconds_;
 };
 
-/// Adds the result of `seconds`, which makes some calls one after another: see in_a_row.h.
-void measure_in_a_row(Samples& samples, const std::function<double()>& seconds);
-
 /// "0.2345"; "-" if there are no samples.
 std::string microseconds(const Samples& samples, int n);
 

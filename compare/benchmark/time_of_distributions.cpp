@@ -3,24 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <optional>
+#include <stdexcept>
+#include <utility>
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
-#include "beside_random.h"
+#include "contenders.h"
 #include "distributions.h"
-#include "point_sets.h"
-#include "stage_counts.h"
+#include "geometry/predicates.h"
+#include "measuring.h"
+#include "orders.h"
 
 namespace benchmark {
 namespace {
 
-using point_sets::Distribution;
+using legacy_stripack::Outcome;
 
 constexpr double kTimeLimit = 60;  // seconds per measurement
 
@@ -31,159 +29,88 @@ struct Size {
 };
 constexpr Size kSizes[] = {{"10^4", 10000, 7}, {"10^5", 100000, 5}, {"10^6", 1000000, 3}};
 
-/// Counts in a process of its own; empty if it exceeds the limit.
-std::optional<StageCounts> counts_of(const Nodes& nodes) {
-  const legacy_stripack::Shared<StageCounts> counts;
-  const auto ended = legacy_stripack::run_in_child([&] { counts[0] = stage_counts(nodes.all); }, kTimeLimit);
-  if (ended.outcome != legacy_stripack::Outcome::returned) return std::nullopt;
-  return counts[0];
-}
-
-std::string share(std::uint64_t part, std::uint64_t whole) {
-  return whole == 0 ? "-" : fmt::format("{:.3f}", static_cast<double>(part) / static_cast<double>(whole));
-}
-
 struct Row {
-  std::string ratios, times, counts;
-  int n = 0;
-  double largest = 0;  ///< ratio
-  bool above = false;
+  std::string family, order = "given";
 };
 
-Row measure_row(const Distribution& d, const std::vector<Nodes>& randoms, int repeats) {
-  Row row;
-  bool goes_on = true;
+/// TRMESH refuses nodes whose first three are collinear: swaps another node into the third place. Throws
+/// std::runtime_error if all nodes are collinear with the first two.
+Nodes with_a_triangle_first(std::vector<pstripack::Point> points) {
+  for (std::size_t other = points.size(); other > 3; --other) {
+    if (pstripack::left(points[0], points[1], points[2]) != 0) return Nodes(points);
+    std::swap(points[2], points[other - 1]);
+  }
+  throw std::runtime_error("all nodes are collinear");
+}
+
+/// Seconds of a call of TRMESH a node, in a process of its own; none if it exceeded the time limit.
+std::optional<double> seconds_a_node(const Nodes& nodes) {
+  const Measurement m = measure(
+      [&] {
+        Lists lists(nodes.n());
+        const Stripack library = ours();
+        return seconds_a_call([&] { library.trmesh(nodes, lists); }, std::max(1, 200000 / nodes.n()));
+      },
+      kTimeLimit);
+  if (m.outcome == Outcome::timed_out) return std::nullopt;
+  if (m.outcome != Outcome::returned) throw std::runtime_error("a measurement of TRMESH crashed");
+  return m.seconds / nodes.n();
+}
+
+/// The time of `nodes` over that of `random`, both measured in turn; none if one exceeded the time limit.
+std::optional<double> beside_random(const Nodes& nodes, const Nodes& random, int repeats) {
+  Samples own, others;
+  while (!own.enough(repeats)) {
+    const auto first = seconds_a_node(nodes), second = seconds_a_node(random);
+    if (!first || !second) return std::nullopt;
+    own.add(*first);
+    others.add(*second);
+  }
+  return own.median() / others.median();
+}
+
+/// The ratio at each size, until one takes too long or there are too few nodes.
+void print_row(const Row& row, const std::vector<Nodes>& randoms, int repeats) {
+  fmt::print("{:<19} {:<9}", row.family, row.order);
   for (std::size_t i = 0; i < std::size(kSizes); ++i) {
-    const Size& size = kSizes[i];
-    std::string ratio = "";
-    if (goes_on) {
-      const std::vector<pstripack::Point> points = point_sets::make(d.name, size.n);
-      if (i == 0) row.n = static_cast<int>(points.size());
-      if (points.size() < size.n * 9 / 10) {
-        goes_on = false;
-        ratio = "few";
-      } else {
-        const Nodes nodes = with_a_triangle_first(points);
-        const BesideRandom b =
-            measure_beside_random(nodes, randoms[i], std::min(repeats, size.most_repeats), kTimeLimit);
-        row.n = nodes.n();
-        if (b.in_time) {
-          ratio = fmt::format("{:.2f}", b.ratio());
-          row.largest = std::max(row.largest, b.ratio());
-          row.times = fmt::format("{:>9.4f} {:>9.4f}", 1e6 * b.own.median(), 1e6 * b.random.median());
-          if (const auto c = counts_of(nodes))
-            row.counts = fmt::format("{:>9.3f} {:>7} {:>7} {:>7} {:>7}", double(c->asked) / nodes.n(),
-                                     share(c->double_double, c->asked), share(c->integers, c->asked),
-                                     share(c->big_integers, c->asked), share(c->tie_rule, c->asked));
-        } else {
-          goes_on = false;
-          ratio = fmt::format("> {:g} s", kTimeLimit);
-          row.above = true;
-        }
-      }
+    std::fflush(stdout);
+    const std::vector<pstripack::Point> points = nodes_in_order(row.family, kSizes[i].n, row.order);
+    if (points.size() < kSizes[i].n * 9 / 10) {
+      fmt::print("{:>8}", "few");
+      break;
     }
-    row.ratios += fmt::format("{:>8}", ratio);
+    const auto ratio =
+        beside_random(with_a_triangle_first(points), randoms[i], std::min(repeats, kSizes[i].most_repeats));
+    fmt::print("{:>8}", ratio ? fmt::format("{:.2f}", *ratio) : fmt::format("> {:g} s", kTimeLimit));
+    if (!ratio) break;
   }
-  row.above = row.above || row.largest > d.limit;
-  return row;
 }
-
-std::vector<Distribution> chosen(const std::vector<std::string>& only) {
-  const auto& all = point_sets::distributions();
-  if (only.empty()) return all;
-  std::vector<Distribution> some;
-  for (const std::string& name : only) {
-    const auto known =
-        std::find_if(all.begin(), all.end(), [&](const Distribution& d) { return d.name == name; });
-    some.push_back(known != all.end() ? *known : Distribution{name, 4});
-  }
-  return some;
-}
-
-#ifdef _OPENMP
-/// The time on `threads` threads over that on one, measured in turn in this process, since a forked child has
-/// only one thread.
-double threads_over_one(const Nodes& nodes, int threads, int repeats) {
-  Lists lists(nodes.n());
-  const Stripack library = ours();
-  const auto seconds_on = [&](int wanted) {
-    omp_set_num_threads(wanted);
-    return seconds_a_call([&] { library.trmesh(nodes, lists); }, std::max(1, 50000 / nodes.n()));
-  };
-  Samples one, all;
-  while (!all.enough(repeats)) {
-    one.add(seconds_on(1));
-    all.add(seconds_on(threads));
-  }
-  return all.median() / one.median();
-}
-#endif
 
 }  // namespace
 
-void run_distributions_on_threads([[maybe_unused]] const std::vector<std::string>& only,
-                                  [[maybe_unused]] int repeats) {
-#ifdef _OPENMP
-  constexpr double kNoise = 1.05;
-  const int threads = omp_get_num_procs();
-  fmt::print(
-      "\ndistributions: time on {} threads over that on one, in turn; at most 1, marked above {:g}\n\n{:<19}",
-      threads, kNoise, "nodes");
+void run_time_of_distributions(const std::vector<std::string>& only, int repeats) {
+  std::vector<Row> rows;
+  for (const std::string& family : only) rows.push_back({family});
+  if (only.empty()) {
+    for (const std::string& order : orders()) rows.push_back({"random", order});
+    for (const point_sets::Distribution& d : point_sets::distributions()) rows.push_back({d.name});
+  }
+  std::vector<Nodes> randoms;
+  for (const Size& size : kSizes) randoms.emplace_back(nodes_in_order("random", size.n, "given"));
+  fmt::print("\ntime of TRMESH over that of as many random nodes, in turn\n\n{:<19} {:<9}", "nodes", "order");
   for (const Size& size : kSizes) fmt::print("{:>8}", size.name);
   fmt::print("\n");
-  int above = 0;
-  for (const Distribution& d : chosen(only)) {
-    double largest = 0;
-    fmt::print("{:<19}", d.name);
-    for (const Size& size : kSizes) {
-      const std::vector<pstripack::Point> points = point_sets::make(d.name, size.n);
-      if (points.size() < size.n * 9 / 10) break;
-      const double ratio =
-          threads_over_one(with_a_triangle_first(points), threads, std::min(repeats, size.most_repeats));
-      largest = std::max(largest, ratio);
-      fmt::print("{:>8.2f}", ratio);
-      std::fflush(stdout);
-    }
-    above += largest > kNoise;
-    fmt::print("{}\n", largest > kNoise ? " above" : "");
-  }
-  fmt::print("{} rows marked\n", above);
-#endif
-}
-
-void run_time_of_distributions(const std::vector<std::string>& only, int repeats) {
-  std::vector<Nodes> randoms;
-  for (const Size& size : kSizes) randoms.emplace_back(point_sets::make("random", size.n));
-  fmt::print("\ndistributions beside random nodes of the same N, in turn\n\n");
-  fmt::print("{:<19}{:^24}{:>7} {:>6}{:>9} {:>19}  {:^41}\n", "", "times random nodes", "", "", "",
-             "microseconds a node", "the predicates, at N");
-  fmt::print("{:<19}", "nodes");
-  for (const Size& size : kSizes) fmt::print("{:>8}", size.name);
-  fmt::print("{:>7} {:>6}{:>9} {:>9} {:>9}  {:>9} {:>7} {:>7} {:>7} {:>7}\n", "limit", "", "N", "these",
-             "random", "asked/N", "dd", "int", "big", "tie");
-  int above = 0;
-  double largest = 0;
-  const std::vector<Distribution> rows = chosen(only);
-  for (const Distribution& d : rows) {
+  for (const Row& row : rows) {
     try {
-      const Row row = measure_row(d, randoms, repeats);
-      above += row.above;
-      largest = std::max(largest, row.largest);
-      fmt::print("{:<19}{}{:>7g} {:>6}{:>9} {:>19}  {}\n", d.name, row.ratios, d.limit,
-                 row.above ? "above" : "", row.n, row.times, row.counts);
+      print_row(row, randoms, repeats);
+      fmt::print("\n");
     } catch (const std::exception& e) {
-      ++above;
-      fmt::print("{:<19} {}\n", d.name, e.what());
+      fmt::print(" {}\n", e.what());
     }
-    std::fflush(stdout);
   }
   fmt::print(
-      "largest {:.2f}; {} of {} rows above their limit\n"
-      "> {:g} s: a measurement took longer, larger N are not tried; few: there are fewer nodes than that\n"
-      "the predicates: questions a node that floating point in the kernel left open; of these the shares\n"
-      "that went on to double-double arithmetic, to integers of fixed size, to big integers, to the tie "
-      "rule\n",
-      largest, above, rows.size(), kTimeLimit);
+      "> {:g} s: a measurement took longer, larger N are not tried; few: there are fewer nodes than that\n",
+      kTimeLimit);
 }
 
 }  // namespace benchmark

@@ -10,7 +10,6 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "child_process.h"
@@ -180,8 +179,8 @@ void run_time_of_queries(int n, const legacy_stripack::Original& original, int r
                        found<decltype(trfind_)>(library, "trfind_"),
                        found<decltype(nearnd_)>(library, "nearnd_")};
   fmt::print(
-      "\nsearches among {} random nodes, in our lists; both in turn, least time of {}\nasked for: GETNP at "
-      "most 1.1, TRFIND and NEARND at most 0.9\n\n{:<38} {:>19}\n{:<38} {:>9} {:>9} {:>9}\n",
+      "\nsearches among {} random nodes, in our lists; both in turn, least time of {}\n\n{:<38} "
+      "{:>19}\n{:<38} {:>9} {:>9} {:>9}\n",
       n, repeats, "", "nanoseconds a call", "", "ours", "original", "ratio");
   std::fflush(stdout);
   const Nodes nodes(nodes_in_order("random", static_cast<std::size_t>(n), "given"));

@@ -1,22 +1,18 @@
 #pragma once
-// Centroidal Voronoi tessellations: evaluations, energy and time until the gradient reaches a bound, with
-// required values.
-
-#include <string>
+// Centroidal Voronoi tessellations: evaluations, energy and time until the gradient reaches a bound.
 
 namespace benchmark {
 
 /// Writes to stdout. `quick`: only cases with few generators, none from random ones.
-void run_time_of_scvt(bool quick, int repeats);
+void run_time_of_scvt(bool quick);
 
 struct DescentSettings {
   int n = 40000;
   int evaluations = 3000;
   double tolerance = 1e-5;
-  std::string csv;
 };
 
-/// Gradient and energy after each evaluation, by Lloyd's method and by ours, from several first generators.
+/// Prints gradient and energy on the way, by Lloyd's method and by ours, from several first generators.
 void run_descents(const DescentSettings& settings);
 
 }  // namespace benchmark

@@ -31,37 +31,6 @@ TEST(Orders, LatitudeGoesFromSouthToNorth) {
       std::is_sorted(nodes.begin(), nodes.end(), [](const Point& a, const Point& b) { return a.z < b.z; }));
 }
 
-TEST(Orders, SouthwardIsLatitudeBackwards) {
-  auto nodes = benchmark::nodes_in_order("random", 1000, "southward");
-  std::reverse(nodes.begin(), nodes.end());
-  EXPECT_EQ(nodes, benchmark::nodes_in_order("random", 1000, "latitude"));
-}
-
-TEST(Orders, EndsAlternate) {
-  const auto nodes = benchmark::nodes_in_order("random", 1000, "ends");
-  for (std::size_t i = 2; i < nodes.size(); ++i)
-    EXPECT_EQ(nodes[i].z > nodes[i - 2].z, i % 2 == 0) << i;  // from the south, from the north
-}
-
-// On the cylinder (longitude, z), scaled to a unit square: Hilbert's curve goes from cell to cell, Morton's
-// jumps.
-TEST(Orders, CurvesGoFromNeighbourToNeighbour) {
-  constexpr double kPi = 3.14159265358979323846;
-  const auto longest_step = [](const std::string& order) {
-    const auto nodes = benchmark::nodes_in_order("random", 4000, order);
-    double longest = 0;
-    for (std::size_t i = 1; i < nodes.size(); ++i) {
-      const auto longitude = [&](std::size_t k) { return std::atan2(nodes[k].y, nodes[k].x) / (2 * kPi); };
-      longest =
-          std::max(longest, std::hypot(longitude(i) - longitude(i - 1), (nodes[i].z - nodes[i - 1].z) / 2));
-    }
-    return longest;
-  };
-  EXPECT_LT(longest_step("hilbert"), 0.15);
-  EXPECT_GT(longest_step("morton"), 0.5);
-  EXPECT_LT(longest_step("morton"), 1);
-}
-
 // 1000 nodes are some 22 rows: the longitude restarts some 21 times, and the latitude of the rows increases.
 TEST(Orders, RowsRunAlongTheLongitude) {
   const auto nodes = benchmark::nodes_in_order("random", 1000, "rows");

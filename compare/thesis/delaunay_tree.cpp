@@ -37,8 +37,6 @@ index_t DelaunayTree::locate(const Point& p) {
     }
     if (next == kNone)
       throw Failure("no triangle of the history contains point " + std::to_string(points_.size() - 2));
-    if (deepest < 0) ++counts_.rescued;
-    ++counts_.steps;
     t = next;
   }
   return t;
@@ -101,7 +99,6 @@ void DelaunayTree::legalize(index_t p) {
 //             d                     d
 //
 void DelaunayTree::flip(index_t t, index_t opposite) {
-  ++counts_.flips;
   const auto [v, n] = tri(t);
   const Tri o = tri(opposite);
   const index_t p = v[0], b = v[1], c = v[2];

@@ -31,14 +31,6 @@ struct Tri {
   std::array<index_t, 3> vertex, neighbour;
 };
 
-struct TreeCounts {
-  std::size_t steps = 0;    ///< steps down the history
-  std::size_t rescued = 0;  ///< steps where rounding left no child that contains the point
-  std::size_t flips = 0;
-
-  void operator+=(const TreeCounts& c) { steps += c.steps, rescued += c.rescued, flips += c.flips; }
-};
-
 class DelaunayTree {
  public:
   /// Three "huge" vertices on a great circle: two triangles glued along their edges, each a hemisphere. The
@@ -51,7 +43,6 @@ class DelaunayTree {
   const std::vector<Tri>& history() const { return history_; }
   bool is_current(index_t t) const { return child_[static_cast<std::size_t>(t)][0] == kNone; }
   static bool is_huge(index_t vertex) { return vertex < 3; }
-  const TreeCounts& counts() const { return counts_; }
 
  private:
   using Children = std::array<index_t, 3>;
@@ -77,7 +68,6 @@ class DelaunayTree {
   std::vector<Tri> history_;       // all triangles so far; a child comes after its parents
   std::vector<Children> child_;    // 3 after a split, 2 after a flip, 0 for a current triangle
   std::vector<index_t> suspects_;  // triangles (p, b, c) whose edge b c is to be tested
-  TreeCounts counts_;
 };
 
 }  // namespace thesis

@@ -5,15 +5,11 @@
 #include <exception>
 #include <tuple>
 
-#include "parallel/cost.h"
-
 namespace thesis {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr std::size_t kRoot = 3;  // the first three vertices of a DelaunayTree are huge
-
-using pstripack::clock_seconds;
 
 /// The vertices around the triangles to be removed, counterclockwise around the remaining ones. A vertex that
 /// alone connects two parts of these occurs twice. Empty if the triangles to be removed are not in one piece.
@@ -92,12 +88,10 @@ std::array<Point, 3> huge_vertices(double longitude) {
   return {at(kTurn), at(kTurn + 2 * kPi / 3), at(kTurn + 4 * kPi / 3)};
 }
 
-std::vector<Nodes> pick(const std::vector<Point>& points, int first, int stripes, int count) {
-  std::vector<Nodes> nodes(static_cast<std::size_t>(stripes));
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const int k = stripe_of(points[i], count) - first;
-    if (0 <= k && k < stripes) nodes[static_cast<std::size_t>(k)].push_back(static_cast<index_t>(i));
-  }
+Nodes pick(const std::vector<Point>& points, int k, int count) {
+  Nodes nodes;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (stripe_of(points[i], count) == k) nodes.push_back(static_cast<index_t>(i));
   return nodes;
 }
 
@@ -107,7 +101,6 @@ Stripe triangulate(const std::vector<Point>& points, const Nodes& nodes, double 
     const std::array<Point, 3> huge = huge_vertices(longitude);
     DelaunayTree tree(huge[0], huge[1], huge[2]);
     for (const index_t i : nodes) tree.insert(points[static_cast<std::size_t>(i)]);
-    stripe.counts = tree.counts();
     const auto node = [&](index_t v) { return nodes[static_cast<std::size_t>(v) - kRoot]; };
     for (index_t t = 0; static_cast<std::size_t>(t) < tree.history().size(); ++t) {
       const auto [a, b, c] = tree.history()[static_cast<std::size_t>(t)].vertex;
@@ -122,37 +115,6 @@ Stripe triangulate(const std::vector<Point>& points, const Nodes& nodes, double 
     stripe.failure = failure.what();
   }
   return stripe;
-}
-
-Stripe triangulate(const std::vector<Point>& points, const std::vector<Nodes>& nodes, int first, int count,
-                   StripeSeconds& seconds) {
-  const int threads = static_cast<int>(nodes.size());
-  std::vector<Stripe> parts(nodes.size());
-  std::vector<double> spent(nodes.size());
-#ifdef _OPENMP
-#pragma omp parallel for schedule(static, 1) num_threads(threads)
-#endif
-  for (int k = 0; k < threads; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
-    parts[i] = triangulate(points, nodes[i], middle(first + k, count));
-    spent[i] = clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start;
-  }
-  seconds.triangulate = *std::max_element(spent.begin(), spent.end());
-  const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
-  Stripe all;
-  for (const Stripe& part : parts) {
-    all.triangles.insert(all.triangles.end(), part.triangles.begin(), part.triangles.end());
-    all.counts += part.counts;
-    if (!part.failure.empty()) all.failure = part.failure;
-    if (part.left.empty()) continue;
-    const Triangles between = stitch(points, all.right, part.left);
-    all.stitched.insert(all.stitched.end(), between.begin(), between.end());
-    if (all.left.empty()) all.left = part.left;
-    all.right = part.right;
-  }
-  seconds.stitch = clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start;
-  return all;
 }
 
 }  // namespace thesis

@@ -16,14 +16,12 @@ using Nodes = std::vector<index_t>;  ///< numbers from 0
 /// The k with longitude in [k dPhi, (k + 1) dPhi), dPhi = 2 pi / count. The poles have longitude 0.
 int stripe_of(const Point& p, int count);
 
-/// The nodes of each of the stripes first, ..., first + stripes - 1 of `count`, in the order of `points`.
-std::vector<Nodes> pick(const std::vector<Point>& points, int first, int stripes, int count);
+/// The nodes of stripe k of `count`, in the order of `points`.
+Nodes pick(const std::vector<Point>& points, int k, int count);
 
 struct Stripe {
-  Triangles triangles;  ///< of the stripe, or of the stripes inside it
-  Triangles stitched;   ///< between the stripes inside it
+  Triangles triangles;
   Chain left, right;    ///< its sides; empty if there are no nodes, or if they surround the huge vertices
-  TreeCounts counts;
   std::string failure;  ///< why the method came to no result; empty if it did
 };
 
@@ -39,15 +37,5 @@ Stripe triangulate(const std::vector<Point>& points, const Nodes& nodes, double 
 
 /// The longitude of the middle of stripe k.
 double middle(int k, int count);
-
-struct StripeSeconds {
-  double triangulate = 0;  ///< processor time of the slowest thread
-  double stitch = 0;
-};
-
-/// The hybrid variant: one thread for each of the stripes first, first + 1, ... of `count`; then stitches
-/// them from west to east.
-Stripe triangulate(const std::vector<Point>& points, const std::vector<Nodes>& nodes, int first, int count,
-                   StripeSeconds& seconds);
 
 }  // namespace thesis

@@ -50,26 +50,3 @@ class Pstripack(CMakePackage):
         if self.spec.satisfies("+python"):
             args.append(self.define("PSTRIPACK_PYTHON_DIR", python_platlib))
         return args
-
-    @property
-    def libs(self):
-        return find_libraries(
-            ["libstripack", "libpstripack"],
-            root=self.prefix,
-            shared=self.spec.satisfies("+shared"),
-            recursive=True,
-        )
-
-    @run_after("install")
-    @on_package_attributes(run_tests=True)
-    def check_install(self):
-        """A Fortran 77 program links with the installed library and prints the right area."""
-        config = Executable(self.prefix.bin.join("pstripack-config"))
-        flags = config("--libs", output=str).split()
-        libdir = next(flag[2:] for flag in flags if flag.startswith("-L"))
-        source = join_path(self.stage.source_path, "examples", "fortran77", "mesh.f")
-        with working_dir(self.build_directory):
-            Executable(self.compiler.fc)(source, "-o", "mesh", *flags, f"-Wl,-rpath,{libdir}")
-            output = Executable("./mesh")(output=str)
-        if "1000 nodes, 1996 triangles, area 12.566371" not in output:
-            raise InstallError(f"the installed library is wrong: {output}")

@@ -14,7 +14,7 @@
 
 #include "behaviour.h"
 #include "inputs.h"
-#include "point_sets.h"
+#include "support/data_file.h"
 
 namespace {
 
@@ -42,7 +42,7 @@ std::vector<Recorded> all_recorded() {
     const std::string path = entry.path();
     std::string name = "file_" + entry.path().stem().string();
     std::replace(name.begin(), name.end(), '-', 'm');
-    all.push_back({{name, [path] { return point_sets::read(path); }},
+    all.push_back({{name, [path] { return nodes_in(path); }},
                    line_of(path, "# original: "),
                    line_of(path, "# ours: ")});
   }

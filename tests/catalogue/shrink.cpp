@@ -1,6 +1,6 @@
 // shrink INPUT PATTERN [SECONDS]: removes nodes as long as the original's behaviour (see behaviour.h) still
 // matches the regular expression PATTERN and the beginning of ours is unchanged. Prints a point file for
-// tests/data. INPUT is a name of inputs.h or a file. This is delta debugging (Zeller, Hildebrandt: ddmin): no
+// tests/data. INPUT is a name of inputs.h or such a file. This is delta debugging (Zeller, Hildebrandt: ddmin): no
 // single node of the result can be removed, but smaller sets may exist.
 
 #include <cstdio>
@@ -11,14 +11,14 @@
 
 #include "behaviour.h"
 #include "inputs.h"
-#include "point_sets.h"
+#include "support/data_file.h"
 
 namespace {
 
 Nodes nodes_of(const std::string& name) {
   for (const Input& input : generated_inputs())
     if (input.name == name) return input.nodes();
-  return point_sets::read(name);
+  return nodes_in(name);
 }
 
 Nodes without(const Nodes& nodes, std::size_t begin, std::size_t end) {

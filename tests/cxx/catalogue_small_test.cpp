@@ -8,6 +8,7 @@
 #include <string>
 
 #include "point_sets.h"
+#include "support/data_file.h"
 #include "support/expect.h"
 
 namespace {
@@ -20,7 +21,7 @@ using pstripack::Point;
 
 const Point ex{1, 0, 0}, ey{0, 1, 0}, ez{0, 0, 1};
 
-Nodes data(const std::string& file) { return point_sets::read(TEST_DATA_DIR "/" + file); }
+Nodes data(const std::string& file) { return nodes_in(TEST_DATA_DIR "/" + file); }
 
 int ier_of(const Nodes& nodes) { return trmesh(nodes).ier; }
 

@@ -9,7 +9,7 @@
 #include <cstdio>
 
 #include "point_sets.h"
-#include "stage_counts.h"
+#include "support/stage_counts.h"
 
 namespace {
 

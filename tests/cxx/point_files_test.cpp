@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "point_sets.h"
+#include "support/data_file.h"
 #include "support/expect.h"
 
 namespace {
@@ -22,7 +23,7 @@ std::vector<std::string> files() {
 class PointFile : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(PointFile, IsAsPromisedInAnyOrder) {
-  Nodes nodes = point_sets::read(TEST_DATA_DIR "/" + GetParam() + ".txt");
+  Nodes nodes = nodes_in(TEST_DATA_DIR "/" + GetParam() + ".txt");
   EXPECT_TRUE(is_as_promised(nodes));
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     point_sets::shuffle(nodes, seed);

@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
 #include <stdexcept>
 
 namespace {
@@ -178,57 +176,6 @@ TEST(Angles, InRadiansNearestToARightAngleMeanIt) {
   EXPECT_DOUBLE_EQ(point_sets::sin_radians(0.7), std::sin(0.7));
   EXPECT_TRUE(std::isnan(point_sets::sin_radians(std::nan(""))));
   EXPECT_DOUBLE_EQ(point_sets::cos_radians(1e17), std::cos(1e17));
-}
-
-// ---- Files ----
-
-std::vector<pstripack::Point> read_text(const std::string& text) {
-  const std::string file = ::testing::TempDir() + "point_sets_test_" +
-                           ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".txt";
-  std::ofstream(file) << text;
-  struct Remove {
-    const std::string& file;
-    ~Remove() { std::remove(file.c_str()); }
-  } remove{file};
-  return point_sets::read(file);
-}
-
-std::string error_of(const std::string& text) {
-  try {
-    read_text(text);
-  } catch (const std::runtime_error& e) {
-    return e.what();
-  }
-  return "no error";
-}
-
-TEST(Files, HoldLongitudesAndLatitudesOrCoordinates) {
-  const auto a = read_text("# comment\n\n 0 90\n90, 0 ! east\r\n-180 -45.5\n");
-  ASSERT_EQ(a.size(), 3u);
-  EXPECT_EQ(a[0], (pstripack::Point{0, 0, 1}));
-  EXPECT_EQ(a[1], (pstripack::Point{0, 1, 0}));
-  EXPECT_EQ(a[2], point_sets::from_degrees(-180, -45.5));
-  const auto b = read_text("1 0 0\n0x1.8p-1 -0.5D0 1.25d-1");
-  ASSERT_EQ(b.size(), 2u);
-  EXPECT_EQ(b[1], (pstripack::Point{0.75, -0.5, 0.125}));
-  EXPECT_EQ(read_text("0x1.d8p+0 2 3")[0].x, 1.84375);
-  EXPECT_EQ(read_text("  2 ! generators\n1 0 0\n0 1 0\n").size(), 2u);
-}
-
-TEST(Files, AreRefusedWithFileAndLine) {
-  EXPECT_NE(error_of("1 2 3\n\n1 x 3\n").find(".txt:3: 'x' is not a finite number"), std::string::npos);
-  EXPECT_NE(error_of("1 2 3\n1 2\n").find(".txt:2: found 2 numbers"), std::string::npos);
-  EXPECT_NE(error_of("1 2 3 4\n").find(".txt:1: expected"), std::string::npos);
-  EXPECT_NE(error_of("1 2 3\n7\n").find(".txt:2: found 1 number "), std::string::npos);
-  EXPECT_NE(error_of("7.5\n1 2 3\n").find(".txt:1: expected"), std::string::npos);
-  EXPECT_NE(error_of("2\n1 2 3\n").find(".txt:1: a single number is the count"), std::string::npos);
-  EXPECT_NE(error_of("1\n1\n1 2 3\n").find(".txt:2: expected"), std::string::npos);
-  EXPECT_NE(error_of("0 0\n0 91\n").find(".txt:2: latitude"), std::string::npos);
-  EXPECT_NE(error_of("1 2 nan\n").find(".txt:1: 'nan'"), std::string::npos);
-  EXPECT_NE(error_of("1 2 1e999\n").find(".txt:1: '1e999'"), std::string::npos);
-  EXPECT_NE(error_of("# nothing\n").find("no points"), std::string::npos);
-  EXPECT_THROW(point_sets::read("/no/such/file"), std::runtime_error);
-  EXPECT_THROW(point_sets::read("/"), std::runtime_error);
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 
 #include "point_sets.h"
 #include "stripack/coordinates_and_areas.h"
+#include "support/data_file.h"
 #include "support/guarded.h"
 #include "support/kinds.h"
 #include "support/reference_predicates.h"
@@ -370,7 +371,7 @@ TYPED_TEST(NextNearest, TrfindAndNearndAreExact) {
   }
   sets.emplace_back("long and short", long_and_short);
   sets.emplace_back("three", std::vector<Point>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
-  sets.emplace_back("from a file", point_sets::read(TEST_DATA_DIR "/search_opposite_a_cluster.txt"));
+  sets.emplace_back("from a file", nodes_in(TEST_DATA_DIR "/search_opposite_a_cluster.txt"));
   for (auto& [name, points] : sets) {
     std::vector<Point> unique;
     for (const Point& p : points) {

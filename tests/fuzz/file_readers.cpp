@@ -11,7 +11,6 @@
 #include "input.h"
 #include "list_files.h"
 #include "mesh_files.h"
-#include "point_sets.h"
 
 namespace {
 
@@ -51,10 +50,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string text = input.rest();
   if (reader == 0) {
     const std::string file = folder.write("nodes.txt", text);
-    read([&] {
-      for (const auto& p : point_sets::read(file))
-        require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z), "a node that is not finite");
-    });
     read([&] {
       files::ReadOptions options;
       options.container = files::Container::text;

@@ -519,4 +519,10 @@ Nodes read(const std::string& file, const ReadOptions& options) {
   return nodes;
 }
 
+#ifndef HAVE_NETCDF
+Nodes read_netcdf(const std::string& file, const ReadOptions&, const std::string&) {
+  throw std::runtime_error(file + ": a NetCDF file, which this build cannot read: build with libnetcdf-dev");
+}
+#endif
+
 }  // namespace files

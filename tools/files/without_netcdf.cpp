@@ -1,4 +1,4 @@
-// Replaces netcdf_nodes.cpp and netcdf_meshes.cpp in builds without NetCDF.
+// Replaces netcdf_meshes.cpp and netcdf_mpas.cpp in builds without NetCDF.
 
 #include <stdexcept>
 
@@ -9,12 +9,11 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& file) {
   throw std::runtime_error(
-      file + ": a NetCDF file, which this build cannot read or write: build with libnetcdf-dev");
+      file + ": a NetCDF file, which this build cannot write: build with libnetcdf-dev");
 }
 
 }  // namespace
 
-Nodes read_netcdf(const std::string& file, const ReadOptions&, const std::string&) { refuse(file); }
 void write_ugrid(const OutputFile& file, const Faces&, const std::vector<Point>&, const std::vector<double>&,
                  const Notes&) {
   refuse(file.name());

@@ -1,5 +1,6 @@
 #include "point_sets.h"
 
+#include <initializer_list>
 #include <stdexcept>
 
 #include "families.h"
@@ -9,30 +10,15 @@ namespace point_sets {
 
 namespace {
 
-std::vector<Family> usual() {
-  return {// everywhere on the sphere
-          random_family(), single_family(), fibonacci_family(),
-          // grids of models
-          icosahedral_family(), latlon_family(), reduced_gaussian_family(), healpix_family(),
-          cubed_sphere_family(), tripolar_family(), ring_family(),
-          // uneven
-          variable_family(), clusters_family(), dense_cap_family(), antipodal_family(), cap_family(),
-          box_family(), strip_family(), tee_family(), pairs_family(), hemisphere_family(),
-          hemisphere_rim_family()};
+std::vector<Family> joined(std::initializer_list<std::vector<Family>> tables) {
+  std::vector<Family> all;
+  for (const std::vector<Family>& table : tables) all.insert(all.end(), table.begin(), table.end());
+  return all;
 }
 
+std::vector<Family> usual() { return joined({even_families(), uneven_families()}); }
 std::vector<Family> hard() {
-  return {// along curves
-          small_circle_family(), two_curves_family(), crossing_family(), ellipse_family(), spiral_family(),
-          comb_family(), falling_tee_family(), moment_family(),
-          // over many decades, and as close as doubles can be
-          falling_family(), ulp_groups_family(), axis_cap_family(), nest_family(), mirrored_nest_family(),
-          rays_family(),
-          // lattices
-          lattice_family(), earth_family(), rounded_family(), rotated_pole_family(), refined_family(),
-          // of instruments
-          satellite_family(), swaths_family(), tracks_family(), rivers_family(), coast_family(),
-          earthquakes_family()};
+  return joined({curves_families(), close_families(), lattices_families(), instruments_families()});
 }
 
 std::vector<std::string> names_of(const std::vector<Family>& some) {
@@ -44,11 +30,7 @@ std::vector<std::string> names_of(const std::vector<Family>& some) {
 }  // namespace
 
 const std::vector<Family>& registry() {
-  static const std::vector<Family> all = [] {
-    std::vector<Family> v = usual();
-    for (Family& f : hard()) v.push_back(std::move(f));
-    return v;
-  }();
+  static const std::vector<Family> all = joined({usual(), hard()});
   return all;
 }
 

@@ -21,11 +21,6 @@ std::vector<pstripack::Point> make(const std::string& family, std::size_t n, std
 const std::vector<std::string>& families();
 const std::vector<std::string>& hard_families();
 
-/// Nodes of a text file, `-` for stdin: lines of `lon lat` (degrees) or `x y z` (any lengths), in decimal,
-/// hexadecimal or with Fortran's D exponents. Commas count as blanks; `#` and `!` start comments. The first
-/// line may be the number of nodes. Throws std::runtime_error with file and line number.
-std::vector<pstripack::Point> read(const std::string& file);
-
 /// SplitMix64.
 class Random {
  public:

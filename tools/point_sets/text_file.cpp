@@ -10,41 +10,11 @@
 #include <cstring>
 #include <memory>
 #include <stdexcept>
-#include <string_view>
-#include <vector>
 
 #include "numbers.h"
-#include "point_sets.h"
 
 namespace point_sets {
 namespace {
-
-std::string numbers(std::size_t count) {
-  return std::to_string(count) + (count == 1 ? " number" : " numbers");
-}
-
-[[noreturn]] void fail(const std::string& name, std::size_t line, const std::string& what) {
-  throw std::runtime_error(name + ":" + std::to_string(line) + ": " + what);
-}
-
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == ',' || c == '\r' || c == '\f' || c == '\v'; }
-
-/// Fast path for plain decimal numbers.
-bool parse_word(std::string_view word, double& value) {
-  const auto [end, error] = parse_beginning(word.data(), word.data() + word.size(), value);
-  if (error == std::errc() && end == word.data() + word.size()) return std::isfinite(value);
-  return parse(std::string(word), value);
-}
-
-/// Rows of equally many finite numbers.
-struct Table {
-  std::size_t columns = 0;
-  std::vector<double> values;      // row after row
-  std::vector<std::size_t> lines;  // of each row, from 1
-
-  std::size_t rows() const { return lines.size(); }
-  const double* row(std::size_t i) const { return &values[columns * i]; }
-};
 
 /// The number of bytes of the UTF-8 character that begins the text; 0: there is none.
 std::size_t length_of_character(std::string_view text) {
@@ -135,68 +105,6 @@ std::string contents_of(const std::string& file) {
   }
   if (std::ferror(in)) throw std::runtime_error(name + ": read error: " + std::strerror(errno));
   return text;
-}
-
-namespace {
-
-Table table_of(std::string_view text, const std::string& name) {
-  Table table;
-  std::size_t number = 0, line_of_count = 0;
-  double count = 0;
-  while (!text.empty()) {
-    ++number;
-    const std::size_t length = std::min(text.size(), text.find('\n'));
-    std::string_view line = text.substr(0, length);
-    text.remove_prefix(std::min(text.size(), length + 1));
-    line = line.substr(0, line.find_first_of("#!"));
-
-    const std::size_t before = table.values.size();
-    for (std::size_t begin = 0, end;; begin = end) {
-      while (begin < line.size() && is_blank(line[begin])) ++begin;
-      if (begin == line.size()) break;
-      for (end = begin; end < line.size() && !is_blank(line[end]);) ++end;
-      const std::string_view word = line.substr(begin, end - begin);
-      double value = 0;
-      if (!parse_word(word, value)) fail(name, number, "'" + excerpt(word) + "' is not a finite number");
-      table.values.push_back(value);
-    }
-    const std::size_t columns = table.values.size() - before;
-    if (columns == 0) continue;
-    if (columns == 1 && table.columns == 0 && line_of_count == 0 && table.values[0] >= 1 &&
-        table.values[0] == std::floor(table.values[0])) {
-      line_of_count = number;
-      count = table.values[0];
-      table.values.clear();
-      continue;
-    }
-    if (table.columns == 0) table.columns = columns;
-    if (table.columns < 2 || table.columns > 3)
-      fail(name, number, "expected 'lon lat' or 'x y z', found " + numbers(columns));
-    if (columns != table.columns)
-      fail(name, number,
-           "found " + numbers(columns) + " where the lines before have " + std::to_string(table.columns));
-    table.lines.push_back(number);
-  }
-  if (table.rows() == 0) throw std::runtime_error(name + ": no points: expected lines 'lon lat' or 'x y z'");
-  if (line_of_count > 0 && count != static_cast<double>(table.rows()))
-    fail(name, line_of_count,
-         "a single number is the count of the points that follow; there are " + std::to_string(table.rows()));
-  return table;
-}
-
-}  // namespace
-
-std::vector<pstripack::Point> read(const std::string& file) {
-  const std::string name = file == "-" ? "stdin" : file;
-  const Table table = table_of(contents_of(file), name);
-  std::vector<pstripack::Point> points(table.rows());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double* const v = table.row(i);
-    if (table.columns == 2 && std::fabs(v[1]) > 90)
-      fail(name, table.lines[i], "latitude outside -90..90 degrees");
-    points[i] = table.columns == 2 ? from_degrees(v[0], v[1]) : pstripack::Point{v[0], v[1], v[2]};
-  }
-  return points;
 }
 
 }  // namespace point_sets

@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
-#include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "files/near_nodes.h"
 #include "files/nodes.h"
 #include "files/writers.h"
+#include "pstripack/reading.h"
 
 namespace program {
 
@@ -21,27 +21,8 @@ enum ExitCode { kDone = 0, kFailed = 1, kUsage = 2 };
 
 using Command = std::function<void()>;
 
-/// "'word' is none of A, B; did you mean A?"
-std::string is_none_of(const std::string& word, const std::vector<std::string>& words);
-
 /// Accepts one of these words.
 CLI::Validator one_of(std::vector<std::string> words);
-
-/// Accepts one of these words and converts it to an enumerator.
-template <class Enum>
-void add_choice(CLI::App& app, const char* name, Enum& value, const std::map<std::string, Enum>& choices,
-                const char* text) {
-  const auto number_of = [choices](std::string& word) -> std::string {
-    if (const auto found = choices.find(word); found != choices.end()) {
-      word = std::to_string(static_cast<int>(found->second));
-      return "";
-    }
-    std::vector<std::string> words;
-    for (const auto& [choice, number] : choices) words.push_back(choice);
-    return is_none_of(word, words);
-  };
-  app.add_option(name, value, text)->type_name("WORD")->transform(CLI::Validator(number_of, ""));
-}
 
 /// "1 node", "2 nodes".
 std::string counted(std::size_t n, const std::string& thing);
@@ -87,8 +68,6 @@ struct Input {
   bool drops() const { return drop_duplicates || duplicates != Duplicates::error; }
 };
 void add_input(CLI::App& app, Input& input);
-/// --from, --columns, --coordinates, --units.
-void add_reading(CLI::App& app, files::ReadOptions& read);
 /// --skip-missing: `what` must not be missing.
 void add_skip_missing(CLI::App& app, files::ReadOptions& read, const char* what);
 /// --duplicates, --drop-duplicates, --duplicates-within, --list-duplicates.

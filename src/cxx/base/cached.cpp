@@ -9,10 +9,7 @@ struct Place {
   std::atomic<bool> is_taken{false};  // stays true when the thing is given up, until the owner asks for it
   std::atomic<CachedThing*> thing{nullptr};
 };
-#ifndef PSTRIPACK_CACHE_PLACES  // more where many ranks are one process: compare/many_ranks
-#define PSTRIPACK_CACHE_PLACES 32
-#endif
-constexpr int places = PSTRIPACK_CACHE_PLACES;
+constexpr int places = 32;
 Place place[places];
 
 }  // namespace
