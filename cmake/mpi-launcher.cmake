@@ -1,7 +1,7 @@
 # How tests and measuring programs start ranks, with any MPI:
 #   mpiexec             command and options, which allow more ranks than processors and bind no rank
 #   mpiexec_words       the same as words for a shell
-#   mpi_environment     for tests: lets Open MPI run as root, and lets its waiting ranks yield their processors
+#   mpi_environment     for tests: lets Open MPI run as root, and lets its waiting ranks leave their processors to others
 #   mpi_is_open_mpi     false for Hydra, the launcher of MPICH and Intel MPI, which needs no options
 #   mpi_patience        factor of the tests' time limits: waiting ranks of MPICH keep processors busy
 #   add_mpi_test, starts_ranks: see below
@@ -19,6 +19,10 @@ if(mpiexec_version MATCHES "Open MPI|OpenRTE")
   list(APPEND mpiexec --oversubscribe --bind-to none)
 endif()
 list(JOIN mpiexec " " mpiexec_words)
+if(mpi_is_open_mpi AND PSTRIPACK_TESTS AND NOT CMAKE_C_FLAGS MATCHES "-fsanitize")  # sanitizers must be loaded first
+  add_library(naps MODULE ${PROJECT_SOURCE_DIR}/tests/support/naps.c)
+  list(APPEND mpi_environment LD_PRELOAD=$<TARGET_FILE:naps>)
+endif()
 
 # starts_ranks(test [LIMIT seconds] [PROCESSORS n] [LABELS label...] [ENVIRONMENT variable=value...]): sets properties of
 # a test whose command starts ranks. PROCESSORS: 1 unless all ranks compute most of the time: tests that wait for

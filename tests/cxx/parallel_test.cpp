@@ -100,11 +100,11 @@ TEST_P(Configurations, GiveTheSerialRings) {
 std::vector<Configuration> configurations() {
   std::vector<Configuration> all;
   for (const auto& [ranks, patches] : std::vector<std::pair<int, int>>{
-           {1, 1}, {1, 2}, {1, 7}, {2, 1}, {3, 1}, {4, 1}, {5, 2}, {7, 1}, {8, 2}, {16, 1}, {64, 1}})
+           {1, 1}, {1, 2}, {1, 7}, {2, 1}, {3, 1}, {5, 2}, {8, 2}, {16, 1}, {64, 1}})
     for (const NamedPartition& partition : kPartitions)
       for (const Brings brings : {Brings::slices, Brings::every_other, Brings::rank_0, Brings::home}) {
         if (ranks == 1 && brings != Brings::slices) continue;
-        if (ranks == 64 && (brings == Brings::rank_0 || brings == Brings::slices)) continue;
+        if (ranks > 5 && (brings == Brings::rank_0 || brings == Brings::slices)) continue;
         all.push_back({ranks, patches, partition.kind, brings});
       }
   return all;

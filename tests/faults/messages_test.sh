@@ -22,7 +22,7 @@ fail() {
 # run FAULT...: runs the job with these variables for the interposer; sets $code to its exit code
 run() {
   options=
-  for variable in LD_PRELOAD="$INTERPOSER" "$@"; do
+  for variable in LD_PRELOAD="$INTERPOSER${LD_PRELOAD:+:$LD_PRELOAD}" "$@"; do
     [ "$OPEN_MPI" = TRUE ] && option="-x $variable" || option="-genv ${variable%%=*} ${variable#*=}"
     options="$options $option"
   done

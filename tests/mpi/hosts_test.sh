@@ -71,7 +71,7 @@ cat > ssh << EOF
 while :; do case \$1 in -*) shift ;; *) break ;; esac; done
 read -r pid < "$dir/\$1.pid"
 shift
-nsenter -t \$pid -m -u -i -n -p env -i PATH="$PATH" HOME="$HOME" TMPDIR=/dev/shm sh -c "cd; \$*"
+nsenter -t \$pid -m -u -i -n -p env -i PATH="$PATH" HOME="$HOME" LD_PRELOAD="${LD_PRELOAD:-}" TMPDIR=/dev/shm sh -c "cd; \$*"
 code=\$?
 [ \$code -eq 137 ] && exec sleep 1000
 exit \$code
