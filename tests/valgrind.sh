@@ -23,7 +23,7 @@ memcheck "$tests/cxx/plot_test" --gtest_filter='-*Ier_6*'  # runs out of memory,
 memcheck "$tests/cxx/mesh_test"
 memcheck "$tests/cxx/warm_start_test" --gtest_filter='*GoesOnWithEveryCall:*OthersInTurn'
 memcheck "$tests/cxx/delaunay_test" --gtest_filter='Memory*'
-for target in predicates kernel list_routines queries; do
+for target in predicates kernel queries; do
   memcheck "$tests/fuzz/fuzz_$target" tests/fuzz/corpus/$target
 done
 exit $failed

@@ -1,4 +1,4 @@
-// Section "Callers and machines" of tests/catalogue/rows.toml, for the C API of one process.
+// TRMESH called by threads, forked children and with little stack or memory; memory stays flat.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -162,9 +162,7 @@ TEST(OutOfMemory, IsReportedAndTouchesNothing) {
     const int code = in_child([&] {
       const Columns c(nodes);
       const std::size_t n = nodes.size();
-      Mesh m;
-      m.list.assign(6 * n - 12, untouched), m.lptr.assign(6 * n - 12, untouched), m.lend.assign(n, untouched);
-      m.lnew = untouched;
+      Mesh m = room_for(n);
       const std::size_t bytes = usage().all + kilobytes * 1024;
       const rlimit limit{bytes, bytes};
       if (setrlimit(RLIMIT_AS, &limit) != 0 || std::freopen("/dev/null", "w", stderr) == nullptr) return 90;
@@ -187,13 +185,11 @@ TEST(OutOfMemory, PrintsOneLine) {
   const int code = in_child([&] {
     dup2(pipe_ends[1], 2);
     const Columns c(nodes);
-    const std::size_t n = nodes.size(), bytes_of_lists = (6 * n - 12) * 4;
-    std::vector<std::int32_t> list(bytes_of_lists / 4), lptr(bytes_of_lists / 4), lend(n);
-    std::int32_t lnew;
+    Mesh m = room_for(nodes.size());
     const rlimit limit{usage().all + (1u << 20), usage().all + (1u << 20)};
     setrlimit(RLIMIT_AS, &limit);
-    return -pstripack_trmesh(static_cast<std::int32_t>(n), c.x.data(), c.y.data(), c.z.data(), list.data(),
-                             lptr.data(), lend.data(), &lnew);
+    return -pstripack_trmesh(static_cast<std::int32_t>(nodes.size()), c.x.data(), c.y.data(), c.z.data(),
+                             m.list.data(), m.lptr.data(), m.lend.data(), &m.lnew);
   });
   close(pipe_ends[1]);
   std::string text;

@@ -1,4 +1,4 @@
-// Section "Numbers" of tests/catalogue/rows.toml: vectors without direction, and extreme sizes. The
+// TRMESH of vectors without direction or of extreme length, and of numbers of nodes that are too large. The
 // floating-point environment: tests/numerics.
 
 #include <gtest/gtest.h>
@@ -6,11 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
 #include <limits>
 
 #include "point_sets.h"
-#include "support/child.h"
 #include "support/expect.h"
 
 namespace {
@@ -75,21 +73,13 @@ TEST(BadCoordinate, ComesBeforeCollinearAndCoinciding) {
 }
 
 TEST(BadCoordinate, InSinglePrecisionIsRefused) {
-  const float bad[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
-                       -std::numeric_limits<float>::infinity(), 0.0F};
-  for (const float b : bad) {
-    const float x[4] = {1, 0, 0, 0}, y[4] = {0, 1, 0, 0}, z[4] = {0, 0, 1, b};
-    std::int32_t list[12], lptr[12], lend[4], lnew = untouched;
-    std::fill(list, list + 12, untouched), std::fill(lptr, lptr + 12, untouched),
-        std::fill(lend, lend + 4, untouched);
+  for (const double bad : {nan, inf, -inf, 0.0}) {
     ::testing::internal::CaptureStderr();
-    EXPECT_EQ(pstripack_trmesh_r4(4, x, y, z, list, lptr, lend, &lnew), -5);
+    const Mesh m = trmesh_r4({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, bad}});
     const std::string line = ::testing::internal::GetCapturedStderr();
+    EXPECT_EQ(m.ier, -5);
     EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1) << line;
-    for (const std::int32_t i : list) EXPECT_EQ(i, untouched);
-    for (const std::int32_t i : lptr) EXPECT_EQ(i, untouched);
-    for (const std::int32_t i : lend) EXPECT_EQ(i, untouched);
-    EXPECT_EQ(lnew, untouched);
+    EXPECT_TRUE(is_untouched(m));
   }
 }
 
@@ -104,18 +94,16 @@ TEST(TooMany, IsRefusedBeforeAnythingIsTouched) {
 }
 
 TEST(TooMany, TheLargestThatFitsIsNot) {
-  // Of the coordinates of 357,913,943 nodes only the first page can be read; it has zero vectors. A call that
-  // accepts N returns -5 or crashes behind this page, or returns -6 if memory is short; but not -4.
   const std::int32_t n = 357913943;
-  const std::size_t bytes = std::size_t{8} * static_cast<std::size_t>(n), page = 4096;
-  char* memory = static_cast<char*>(mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0));
-  ASSERT_NE(memory, MAP_FAILED);
-  ASSERT_EQ(mprotect(memory, page, PROT_READ), 0);
-  const double* x = reinterpret_cast<const double*>(memory);
-  const int code =
-      in_child([&] { return -pstripack_trmesh(n, x, x, x, nullptr, nullptr, nullptr, nullptr); });
-  EXPECT_TRUE(code == 5 || code == 6 || code == -SIGSEGV) << code;
-  munmap(memory, bytes);
+  const std::size_t bytes = std::size_t{8} * static_cast<std::size_t>(n);
+  void* const zeros =
+      mmap(nullptr, bytes, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);  // takes no memory
+  ASSERT_NE(zeros, MAP_FAILED);
+  const double* const x = static_cast<const double*>(zeros);
+  ::testing::internal::CaptureStderr();
+  EXPECT_EQ(pstripack_trmesh(n, x, x, x, nullptr, nullptr, nullptr, nullptr), -5);
+  EXPECT_NE(::testing::internal::GetCapturedStderr().find("node 1 of 357913943 "), std::string::npos);
+  munmap(zeros, bytes);
 }
 
 TEST(ErrorCodes, HaveALineEach) {
@@ -241,16 +229,9 @@ TEST(Components, DenormalOnesAreCorrect) {
 class SinglePrecision : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(SinglePrecision, NodesAreCorrectAndAsInDouble) {
-  const std::size_t n = GetParam();
-  const Nodes nodes = make("single", n);
-  const Columns c(nodes);
-  const std::vector<float> x(c.x.begin(), c.x.end()), y(c.y.begin(), c.y.end()), z(c.z.begin(), c.z.end());
-  const Mesh expected = trmesh(nodes);
+  const Nodes nodes = make("single", GetParam());
+  const Mesh expected = trmesh(nodes), m = trmesh_r4(nodes);
   EXPECT_TRUE(is_as_promised(nodes, expected));
-  Mesh m;
-  m.list.assign(6 * n - 12, untouched), m.lptr.assign(6 * n - 12, untouched), m.lend.assign(n, untouched);
-  m.ier = pstripack_trmesh_r4(static_cast<std::int32_t>(n), x.data(), y.data(), z.data(), m.list.data(),
-                              m.lptr.data(), m.lend.data(), &m.lnew);
   EXPECT_EQ(m.ier, expected.ier);
   EXPECT_TRUE(m == expected);
 }

@@ -1,4 +1,4 @@
-// Section "Small and special" of tests/catalogue/rows.toml: at least one test per row.
+// TRMESH of few nodes, Platonic solids, great circles, lattices and rings: judged exactly.
 
 #include <gtest/gtest.h>
 
@@ -30,17 +30,8 @@ int ier_of(const Nodes& nodes) { return trmesh(nodes).ier; }
 TEST(FewNodes, BelowThreeAreRefusedInSilence) {
   ::testing::internal::CaptureStderr();
   for (const std::int32_t n : {-2147483647 - 1, -5, -1, 0, 1, 2}) {
-    const double coordinate[2] = {1, 1};
-    std::int32_t list[6], lptr[6], lend[3], lnew = untouched;
-    std::fill(list, list + 6, untouched), std::fill(lptr, lptr + 6, untouched),
-        std::fill(lend, lend + 3, untouched);
-    EXPECT_EQ(pstripack_trmesh(n, coordinate, coordinate, coordinate, list, lptr, lend, &lnew), -1) << n;
     EXPECT_EQ(pstripack_trmesh(n, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr), -1) << n;
     EXPECT_EQ(pstripack_trmesh_r4(n, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr), -1) << n;
-    for (const std::int32_t i : list) EXPECT_EQ(i, untouched);
-    for (const std::int32_t i : lptr) EXPECT_EQ(i, untouched);
-    for (const std::int32_t i : lend) EXPECT_EQ(i, untouched);
-    EXPECT_EQ(lnew, untouched);
   }
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
@@ -89,130 +80,6 @@ TEST(FewNodes, FourOnOneSideHaveABoundary) {
   EXPECT_TRUE(is_correct(outer, m));
   EXPECT_EQ(boundary_nodes(m), 4u);
 }
-
-// ---- All small subsets of the 26 directions of a cube ----
-
-/// The signs of all fours of the 26 nodes, from tests/support/reference_predicates.h.
-class CubeDirections {
- public:
-  explicit CubeDirections(bool unit) {
-    for (int x = -1; x <= 1; ++x)
-      for (int y = -1; y <= 1; ++y)
-        for (int z = -1; z <= 1; ++z)
-          if (x != 0 || y != 0 || z != 0) {
-            const Point p{double(x), double(y), double(z)};
-            nodes_.push_back(unit ? normalized(p) : p);
-          }
-    const exact::On on = unit ? exact::On::coordinates : exact::On::directions;
-    for (int a = 0; a < 26; ++a)
-      for (int b = 0; b < a; ++b)
-        for (int c = 0; c < b; ++c) {
-          set_left(a, b, c, exact::left(nodes_[a], nodes_[b], nodes_[c]));
-          for (int d = 0; d < c; ++d)
-            set_above(a, b, c, d, exact::above(on, nodes_[a], nodes_[b], nodes_[c], nodes_[d]));
-        }
-  }
-
-  /// Calls trmesh for `count` of the nodes in this order; empty if the result is right.
-  std::string check(const int* subset, int count) const {
-    double x[6], y[6], z[6];
-    std::int32_t list[24], lptr[24], lend[6], lnew = untouched;
-    for (int k = 0; k < count; ++k)
-      x[k] = nodes_[subset[k]].x, y[k] = nodes_[subset[k]].y, z[k] = nodes_[subset[k]].z;
-    const int expected = left_[subset[0]][subset[1]][subset[2]] == 0 ? -2 : 0;
-    const int ier = pstripack_trmesh(count, x, y, z, list, lptr, lend, &lnew);
-    if (ier != expected) return "IER = " + std::to_string(ier) + ", expected " + std::to_string(expected);
-    if (ier != 0) return "";
-    // Canonical lists: node k has the slots from the last of k-1 on.
-    int faces = 0;
-    std::int32_t slot = 1;
-    for (std::int32_t k = 1; k <= count; ++k) {
-      const std::int32_t first = slot, last = lend[k - 1];
-      if (last <= first || last > 6 * count - 12) return "LEND(" + std::to_string(k) + ")";
-      for (; slot <= last; ++slot) {
-        if (lptr[slot - 1] != (slot == last ? first : slot + 1)) return "LPTR(" + std::to_string(slot) + ")";
-        const std::int32_t a = list[slot - 1], b = list[lptr[slot - 1] - 1];
-        if (a > count || a == 0 || a < -count || (a < 0 && slot < last))
-          return "LIST(" + std::to_string(slot) + ")";
-        if (a < 0) continue;  // the end of a boundary node's list
-        const int p = subset[k - 1], q = subset[a - 1], r = subset[std::abs(b) - 1];
-        if (left_[p][q][r] <= 0) return "a triangle is not counterclockwise";
-        for (int d = 0; d < count; ++d)
-          if (above_[p][q][r][subset[d]] > 0) return "a node lies in a triangle's cap";
-        ++faces;
-      }
-    }
-    if (lnew != slot) return "LNEW";
-    return faces == 3 * number_of_faces(subset, count) ? "" : "wrong number of triangles";
-  }
-
- private:
-  /// Faces of the hull with a positive determinant.
-  int number_of_faces(const int* s, int count) const {
-    int faces = 0;
-    for (int i = 0; i < count; ++i)
-      for (int j = i + 1; j < count; ++j)
-        for (int k = j + 1; k < count; ++k) {
-          const int sign = left_[s[i]][s[j]][s[k]];
-          bool empty = sign != 0;
-          for (int d = 0; empty && d < count; ++d)
-            empty = d == i || d == j || d == k || sign * above_[s[i]][s[j]][s[k]][s[d]] <= 0;
-          faces += empty;
-        }
-    return faces;
-  }
-
-  void set_left(int a, int b, int c, int sign) {
-    left_[a][b][c] = left_[b][c][a] = left_[c][a][b] = static_cast<signed char>(sign);
-    left_[b][a][c] = left_[a][c][b] = left_[c][b][a] = static_cast<signed char>(-sign);
-  }
-  void set_above(int a, int b, int c, int d, int sign) {
-    int v[4] = {a, b, c, d}, p[4] = {0, 1, 2, 3};
-    do {
-      int inversions = 0;
-      for (int i = 0; i < 4; ++i)
-        for (int j = 0; j < i; ++j) inversions += p[j] > p[i];
-      above_[v[p[0]]][v[p[1]]][v[p[2]]][v[p[3]]] =
-          static_cast<signed char>(inversions % 2 == 0 ? sign : -sign);
-    } while (std::next_permutation(p, p + 4));
-  }
-
-  Nodes nodes_;
-  signed char left_[26][26][26] = {}, above_[26][26][26][26] = {};
-};
-
-/// Checks every subset of `size` of the 26 nodes, in every `stride`-th of all orders of all subsets, and each
-/// subset in at least one order.
-void check_subsets(bool unit, int size, std::uint64_t stride) {
-  const CubeDirections cube(unit);
-  std::uint64_t orders = 0, calls = 0;
-  std::string chosen =
-      std::string(static_cast<std::size_t>(size), 1) + std::string(static_cast<std::size_t>(26 - size), 0);
-  do {
-    int subset[6], count = 0;
-    for (int k = 0; k < 26; ++k)
-      if (chosen[static_cast<std::size_t>(k)]) subset[count++] = k;
-    bool first = true;
-    do {
-      if (orders++ % stride != 0 && !first) continue;
-      first = false;
-      ++calls;
-      ASSERT_EQ(cube.check(subset, size), "")
-          << ::testing::PrintToString(std::vector<int>(subset, subset + size));
-    } while (std::next_permutation(subset, subset + size));
-  } while (std::prev_permutation(chosen.begin(), chosen.end()));
-  ::testing::Test::RecordProperty("calls", std::to_string(calls));
-}
-
-TEST(CubeDirections, OfUnitLengthSubsetsOf3InAllOrders) { check_subsets(true, 3, 1); }
-TEST(CubeDirections, OfUnitLengthSubsetsOf4InAllOrders) { check_subsets(true, 4, 1); }
-TEST(CubeDirections, OfUnitLengthSubsetsOf5InEverySeventhOrder) { check_subsets(true, 5, 7); }
-TEST(CubeDirections, OfUnitLengthSubsetsOf5InAllOrders) { check_subsets(true, 5, 1); }
-TEST(CubeDirections, OfUnitLengthSubsetsOf6InOneOrderOrMore) { check_subsets(true, 6, 241); }
-TEST(CubeDirections, OfIntegersSubsetsOf3InAllOrders) { check_subsets(false, 3, 1); }
-TEST(CubeDirections, OfIntegersSubsetsOf4InAllOrders) { check_subsets(false, 4, 1); }
-TEST(CubeDirections, OfIntegersSubsetsOf5InEverySeventhOrder) { check_subsets(false, 5, 7); }
-TEST(CubeDirections, OfIntegersSubsetsOf6InOneOrderOrMore) { check_subsets(false, 6, 1009); }
 
 // ---- The Platonic solids ----
 
@@ -391,41 +258,6 @@ TEST(SmallCircle, At60DegreesHas100BoundaryNodes) {
 
 // ---- Strips, hemispheres, caps ----
 
-TEST(Strip, IsCorrect) {
-  for (const char* width : {"1e-3", "1e-6", "1e-9", "1e-12", "1e-15", "1e-18"})
-    for (const std::size_t n : {10, 100, 2000}) {
-      const Nodes nodes = make(std::string("strip:") + width, n);
-      EXPECT_TRUE(is_as_promised(nodes)) << width << " " << n;
-    }
-}
-
-TEST(Strip, AlongTheEquatorIsCorrect) {
-  Random random(1);
-  for (const double width : {1e-9, 1e-15, 1e-30, 1e-310}) {
-    Nodes nodes;
-    for (int i = 0; i < 1000; ++i) {
-      nodes.push_back(from_degrees(random.uniform(0, 360), 0));
-      nodes.back().z = width * random.uniform(-1, 1);
-    }
-    EXPECT_TRUE(is_as_promised(nodes)) << width;
-  }
-}
-
-TEST(Hemisphere, OpenIsCorrect) {
-  for (const std::size_t n : {3, 4, 10, 1000, 20000}) EXPECT_TRUE(is_as_promised(make("hemisphere", n))) << n;
-}
-
-TEST(Hemisphere, WithNodesOnItsRimIsCorrect) {
-  for (const std::size_t n : {5, 10, 1000, 20000}) {
-    const Nodes nodes = make("hemisphere-rim", n);
-    const Mesh m = trmesh(nodes);
-    EXPECT_TRUE(is_as_promised(nodes, m)) << n;
-    if (n >= 1000) {
-      EXPECT_EQ(boundary_nodes(m), n / 2);
-    }
-  }
-}
-
 TEST(Hemisphere, WithASymmetricRimIsCorrect) {
   // Opposite pairs on the rim: every arc of the boundary is exactly on the equator.
   for (const int n : {4, 6, 36}) {
@@ -436,40 +268,6 @@ TEST(Hemisphere, WithASymmetricRimIsCorrect) {
     EXPECT_TRUE(is_correct(nodes, m)) << n;
     EXPECT_EQ(boundary_nodes(m), static_cast<std::size_t>(n));
   }
-}
-
-TEST(Cap, IsCorrect) {
-  for (const char* family : {"cap", "cap:1e-6", "cap:1e-8"}) {
-    const Nodes nodes = make(family, 1000);
-    EXPECT_TRUE(is_as_promised(nodes)) << family;
-  }
-}
-
-TEST(Cap, TwentyThousandIn1e7IsCorrect) { EXPECT_TRUE(is_as_promised(make("cap:1e-7", 20000))); }
-
-TEST(Cap, AroundAnAxisIsCorrect) {  // where one coordinate is 1 for all nodes, or nearly
-  Random random(1);
-  for (const double radius : {1e-2, 1e-6, 1e-8, 1e-12, 1e-200}) {
-    Nodes nodes;
-    for (int i = 0; i < 1000; ++i)
-      nodes.push_back(normalized({radius * random.uniform(-1, 1), radius * random.uniform(-1, 1), 1}));
-    EXPECT_TRUE(is_as_promised(nodes)) << radius;
-  }
-}
-
-TEST(Box, SortedAndShuffledIsCorrect) {
-  Nodes nodes = make("box", 2500);
-  EXPECT_TRUE(is_as_promised(nodes));
-  point_sets::shuffle(nodes, 1);
-  EXPECT_TRUE(is_as_promised(nodes));
-}
-
-TEST(AntipodalClusters, AreCorrect) {
-  for (const char* radius : {"0.1", "1e-3", "1e-6", "1e-9"})
-    for (const std::size_t n : {6, 50, 2000}) {
-      const Nodes nodes = make(std::string("antipodal:") + radius, n);
-      EXPECT_TRUE(is_as_promised(nodes)) << radius << " " << n;
-    }
 }
 
 TEST(AntipodalClusters, PointByPointOppositeAreCorrect) {
@@ -501,6 +299,69 @@ TEST(Boundary, TwoOppositeNodesAreCorrect) {
   m = trmesh(lune);
   EXPECT_TRUE(is_correct(lune, m));
   EXPECT_EQ(boundary_nodes(m), 8u);
+}
+
+// ---- Grids and rings ----
+
+constexpr double radians = 0.017453292519943295;
+
+/// rows x columns from pole to pole, row after row, a node at each pole; with the machine's own cosines.
+Nodes grid(int rows, int columns) {
+  Nodes nodes = {{0, 0, -1}};
+  for (int j = 1; j < rows - 1; ++j)
+    for (int i = 0; i < columns; ++i) {
+      const double latitude = (-90 + 180.0 * j / (rows - 1)) * radians,
+                   longitude = 360.0 * i / columns * radians;
+      nodes.push_back({std::cos(latitude) * std::cos(longitude), std::cos(latitude) * std::sin(longitude),
+                       std::sin(latitude)});
+    }
+  nodes.push_back({0, 0, 1});
+  return nodes;
+}
+
+TEST(LatitudeLongitude, GridsAreCorrect) {
+  for (const auto& [rows, columns] :
+       {std::pair{19, 36}, {181, 360}, {4, 3}, {3, 4}, {37, 5}, {12, 9}, {12, 36}, {3, 1000}}) {
+    Nodes nodes = grid(rows, columns);
+    EXPECT_TRUE(is_as_promised(nodes)) << rows << " x " << columns;
+    std::reverse(nodes.begin(), nodes.end());
+    EXPECT_TRUE(is_as_promised(nodes)) << rows << " x " << columns << ", reversed";
+  }
+}
+
+TEST(LatitudeLongitude, RegionsAreCorrect) {  // Europe in degrees: rows are small circles, columns great ones
+  Nodes nodes;
+  for (int latitude = 35; latitude <= 70; ++latitude)
+    for (int longitude = -10; longitude <= 40; ++longitude)
+      nodes.push_back(from_degrees(longitude, latitude));
+  EXPECT_TRUE(is_as_promised(nodes));
+}
+
+TEST(CubedSphere, CornersOfCellsAreCorrect) {  // nodes on the edges of the cube, lattice symmetric to the bit
+  for (const int m : {2, 3, 4, 8, 16}) {
+    Nodes nodes;
+    for (int i = 0; i <= m; ++i)
+      for (int j = 0; j <= m; ++j)
+        for (int k = 0; k <= m; ++k)
+          if (i % m == 0 || j % m == 0 || k % m == 0)
+            nodes.push_back(point_sets::normalized({2. * i - m, 2. * j - m, 2. * k - m}));
+    EXPECT_TRUE(is_as_promised(nodes)) << m;
+    Nodes lattice;  // the same on exact integer directions: as many ties as there can be
+    for (int i = 0; i <= m; ++i)
+      for (int j = 0; j <= m; ++j)
+        for (int k = 0; k <= m; ++k)
+          if (i % m == 0 || j % m == 0 || k % m == 0) lattice.push_back({2. * i - m, 2. * j - m, 2. * k - m});
+    point_sets::shuffle(lattice, 1);
+    EXPECT_TRUE(is_as_promised(lattice, trmesh(lattice))) << m << " on integers";
+  }
+}
+
+TEST(Ring, OnEveryParallelIsCorrect) {
+  for (const double latitude : {-89.999, -60., -1e-6, 1e-9, 30., 89.9}) {
+    Nodes nodes;
+    for (int i = 0; i < 500; ++i) nodes.push_back(from_degrees(0.72 * i, latitude));
+    EXPECT_TRUE(is_as_promised(nodes)) << latitude;
+  }
 }
 
 }  // namespace

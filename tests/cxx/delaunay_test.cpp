@@ -276,12 +276,6 @@ TEST_P(ThreadCount, DoesNotChangeABit) {
 INSTANTIATE_TEST_SUITE_P(Of, ThreadCount, ::testing::ValuesIn(cases({3, 100, 70000, 100000})), name_of);
 INSTANTIATE_TEST_SUITE_P(Hard, ThreadCount, ::testing::ValuesIn(hard_cases({100, 5000})), name_of);
 
-TEST(Runs, AreTheSameToTheBit) {
-  const Nodes nodes = make("random", 20000);
-  const Mesh first = trmesh(nodes);
-  for (int i = 0; i < 5; ++i) EXPECT_TRUE(trmesh(nodes) == first);
-}
-
 TEST(Fingerprints, TellSetsOfTrianglesApart) {
   const Nodes nodes = make("random", 1000), others = make("random", 1000, 2);
   const auto print = [](const Mesh& m) {
@@ -326,20 +320,6 @@ TEST(Memory, NothingOutsideTheArraysIsTouched) {
         const Nodes nodes = make(family, n);
         if (expected_ier(nodes) == 0) check_memory(nodes, edge);
       }
-}
-
-TEST(Memory, SlotsBehindLnewStayUntouched) {
-  for (const std::size_t n : {3, 10, 1000, 50000}) {
-    const Nodes nodes = make("hemisphere", n);
-    const Mesh m = trmesh(nodes);
-    ASSERT_EQ(m.ier, 0);
-    const std::size_t boundary = boundary_nodes(m);
-    EXPECT_EQ(static_cast<std::size_t>(m.lnew), 6 * n - 5 - 2 * boundary);
-    for (std::size_t i = static_cast<std::size_t>(m.lnew) - 1; i < m.list.size(); ++i) {
-      ASSERT_EQ(m.list[i], untouched);
-      ASSERT_EQ(m.lptr[i], untouched);
-    }
-  }
 }
 
 TEST(Memory, TheMessageOfTheValidatorStaysInItsBuffer) {

@@ -261,64 +261,6 @@ TEST(Vrplot, DrawsEveryEdgeWithAnEndInTheWindowOnce) {
   }
 }
 
-// The other kinds, which other libraries have.
-template <class Real, class Int, class Plot>
-std::string composed(const Sphere& s, const Look& look, const Plot& plot) {
-  const auto real = [](const std::vector<double>& v) { return std::vector<Real>(v.begin(), v.end()); };
-  const auto integer = [](const std::vector<int>& v) { return std::vector<Int>(v.begin(), v.end()); };
-  const std::vector<Real> x = real(s.x), y = real(s.y), z = real(s.z), xc = real(s.xc), yc = real(s.yc),
-                          zc = real(s.zc);
-  const std::vector<Int> list = integer(s.list), lptr = integer(s.lptr), lend = integer(s.lend),
-                         listc = integer(s.listc), voronoi_lptr = integer(s.voronoi_lptr);
-  Int ier = 99;
-  void* const handle =
-      plot(Real(look.size), Real(look.latitude), Real(look.longitude), Real(look.angle), Int(s.n), x, y, z,
-           Int(s.nt), list, lptr, lend, listc, voronoi_lptr, xc, yc, zc, &ier);
-  EXPECT_EQ(ier, 0);
-  return text_of(handle);
-}
-
-#define PLOTS_OF(suffix)                                                                                    \
-  const auto triangulation_##suffix = [](auto size, auto latitude, auto longitude, auto angle, auto n,      \
-                                         const auto& x, const auto& y, const auto& z, auto,                 \
-                                         const auto& list, const auto& lptr, const auto& lend, const auto&, \
-                                         const auto&, const auto&, const auto&, const auto&, auto* ier) {   \
-    return pstripack_trplot_##suffix(unit, size, latitude, longitude, angle, n, x.data(), y.data(),         \
-                                     z.data(), list.data(), lptr.data(), lend.data(), title.data(),         \
-                                     static_cast<int>(title.size()), 1, ier);                               \
-  };                                                                                                        \
-  const auto voronoi_##suffix = [](auto size, auto latitude, auto longitude, auto angle, auto n,            \
-                                   const auto& x, const auto& y, const auto& z, auto nt, const auto&,       \
-                                   const auto&, const auto& lend, const auto& listc, const auto& lptr,      \
-                                   const auto& xc, const auto& yc, const auto& zc, auto* ier) {             \
-    return pstripack_vrplot_##suffix(unit, size, latitude, longitude, angle, n, x.data(), y.data(),         \
-                                     z.data(), nt, listc.data(), lptr.data(), lend.data(), xc.data(),       \
-                                     yc.data(), zc.data(), title.data(), static_cast<int>(title.size()), 1, \
-                                     ier);                                                                  \
-  };
-PLOTS_OF(r4)
-PLOTS_OF(i8)
-
-TEST(Trplot, DrawsTheSameInAllKinds) {
-  const Sphere sphere(60, 180, 3);
-  for (const Look& look : looks()) {
-    const std::string text = plotted(trplot, sphere, look, 1);
-    EXPECT_TRUE((composed<double, std::int64_t>(sphere, look, triangulation_i8) == text));
-    EXPECT_TRUE(same_lines(File(composed<float, std::int32_t>(sphere, look, triangulation_r4)).lines,
-                           File(text).lines, 4e-6));
-  }
-}
-
-TEST(Vrplot, DrawsTheSameInAllKinds) {
-  const Sphere sphere(60, 85, 3);
-  for (const Look& look : looks()) {
-    const std::string text = plotted(vrplot, sphere, look, 1);
-    EXPECT_TRUE((composed<double, std::int64_t>(sphere, look, voronoi_i8) == text));
-    EXPECT_TRUE(same_lines(File(composed<float, std::int32_t>(sphere, look, voronoi_r4)).lines,
-                           File(text).lines, 4e-6));
-  }
-}
-
 TEST(Plot, NumbersTheNodesInTheWindow) {
   const Sphere sphere(1200, 180, 8);
   for (const auto& [name, routine] : routines)
@@ -583,35 +525,6 @@ TEST(Plot, GhostscriptRendersIt) {
           EXPECT_LT(bottom, 396 - rim - 80) << name;
           EXPECT_GT(bottom, 396 - rim - 100) << name;
         }
-  }
-}
-
-// The picture is not empty: more ink within the rim where there are more arcs.
-TEST(Plot, GhostscriptShowsTheArcs) {
-  if (std::string(GHOSTSCRIPT).empty()) GTEST_SKIP() << "there is no Ghostscript (package ghostscript)";
-  for (const auto& [name, routine] : routines) {
-    double before = 0;
-    for (const int n : {7, 60, 600}) {
-      const Sphere sphere(n, 180, 3);
-      const TemporaryFile file, picture;
-      {
-        const FortranUnit open(unit, file.path());
-        ASSERT_EQ(routine(sphere, {8, 20, 30, 90}, 0, unit), 0);
-      }
-      const std::string gs = std::string(GHOSTSCRIPT) + " -q -dSAFER -dBATCH -dNOPAUSE -r72 -sDEVICE=pgmraw ";
-      ASSERT_EQ(std::system((gs + "-sOutputFile=" + picture.path() + " " + file.path()).c_str()), 0);
-      const std::string pgm = picture.text();  // 612 x 792 bytes at the end
-      ASSERT_GT(pgm.size(), 612u * 792u);
-      const std::string pixels = pgm.substr(pgm.size() - 612 * 792);
-      double ink = 0;
-      for (int row = 0; row < 792; ++row)
-        for (int column = 0; column < 612; ++column)
-          if (std::hypot(column - 306, row - 396) < 240)
-            ink +=
-                1 - static_cast<unsigned char>(pixels[static_cast<std::size_t>(612 * row + column)]) / 255.0;
-      EXPECT_GT(ink, 1.5 * before + 500) << name << " " << n;
-      before = ink;
-    }
   }
 }
 

@@ -42,8 +42,6 @@ TEST_P(Family, HasNodesOfItsLengthAndNoneTwice) {
   }
 }
 
-TEST_P(Family, IsReproducible) { EXPECT_EQ(make(GetParam(), 500, 3), make(GetParam(), 500, 3)); }
-
 std::string name_of(const ::testing::TestParamInfo<std::string>& info) {
   std::string name = info.param;
   std::replace(name.begin(), name.end(), '-', '_');

@@ -235,20 +235,6 @@ TEST(Run, HasTheSameBitsOnAnyNumberOfRanks) {
   }
 }
 
-TEST(Run, IsMadeWellCentredWithTheSameBitsOnAnyNumberOfRanks) {
-  RunOptions options = few_evaluations();
-  options.levels = false;
-  options.well_centred = true;
-  const Tessellation alone = run(500, kBump, options);
-  EXPECT_GT(alone.repair.moved, 0);
-  expect_same_bits(alone, options, std::vector{2, 3, 8}, [&](const Tessellation& found) {
-    EXPECT_EQ(found.repair.moved, alone.repair.moved);
-    EXPECT_EQ(found.repair.obtuse, alone.repair.obtuse);
-    EXPECT_EQ(found.repair.largest_angle, alone.repair.largest_angle);
-    EXPECT_EQ(found.repair.place, alone.repair.place);
-  });
-}
-
 /// All slices joined, as a single process reads them from a file.
 Tessellation joined(const std::vector<Tessellation>& slices) {
   Tessellation all = slices[0];
@@ -298,103 +284,6 @@ TEST(Run, GoesOnWithTheSameBitsOnAnotherNumberOfRanks) {
       });
       EXPECT_EQ(gathered.points(), alone.state.generators) << size << " ranks, " << steps << " steps";
     }
-}
-
-/// A density that is bad in a small place.
-class Hole final : public Density {
- public:
-  explicit Hole(double bad) : bad_(bad) {}
-  using Density::at;
-  void at(std::size_t n, const Point* p, double* value) const override {
-    for (std::size_t i = 0; i < n; ++i) value[i] = p[i].x > 0.99 ? bad_ : 1;
-  }
-
- private:
-  double bad_;
-};
-
-/// What all ranks are told: once for each number of ranks.
-std::vector<std::string> told(const std::function<void(Communicator&)>& body) {
-  std::vector<std::string> all;
-  for (const int size : kRanks) {
-    std::mutex mutex;
-    std::vector<std::string> texts;
-    ThreadRanks::run(size, [&](Communicator& ranks) {
-      try {
-        body(ranks);
-      } catch (const NoTessellation& e) {
-        const std::lock_guard lock(mutex);
-        texts.emplace_back(e.what());
-      }
-    });
-    EXPECT_EQ(texts.size(), static_cast<std::size_t>(size));
-    if (texts.empty()) continue;
-    for (const std::string& text : texts) EXPECT_EQ(text, texts[0]);
-    all.push_back(texts[0]);
-  }
-  return all;
-}
-
-TEST(Run, TellsAllRanksOfTheSameBadPlace) {
-  for (const auto& [bad, value] : {std::pair(-1.0, "-1"), {1e-250, "1e-250"}})
-    for (const std::string& text : told([bad = bad](Communicator& ranks) {
-           const Hole hole(bad);
-           GatheringEvaluator evaluator(ranks, hole);
-           Tessellation t = first_generators(evaluator, 300, {});
-           iterate(evaluator, t, {});
-         }))
-      EXPECT_NE(text.find(std::string("the density is ") + value + " at lon "), std::string::npos) << text;
-}
-
-/// The generators of a rank, of all.
-Tessellation part_of(const Communicator& ranks, const std::vector<Point>& points) {
-  Tessellation t;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (static_cast<int>(i % static_cast<std::size_t>(ranks.size())) == ranks.rank()) {
-      t.state.generators.push_back(points[i]);
-      t.numbers.push_back(static_cast<std::int64_t>(i) + 1);
-    }
-  return t;
-}
-
-TEST(Run, TellsAllRanksOfTheSameGenerators) {
-  std::vector<Point> points = point_sets::make("random", 30, 1);
-  constexpr double e = 1e-100;
-  for (const Point& p : {Point{e, 0, 1}, Point{-e, 0, 1}, Point{0, e, 1}, Point{0, -e, 1}, Point{0, 0, 1}})
-    points.push_back(p);
-  for (const std::string& text : told([&](Communicator& ranks) {
-         GatheringEvaluator evaluator(ranks, kConstant);
-         Tessellation t = part_of(ranks, points);
-         iterate(evaluator, t, {});
-       }))
-    EXPECT_EQ(text,
-              "the cell of generator 35 is too small: move it away from generator 31, or remove one of them");
-}
-
-class Tiny final : public Density {
- public:
-  using Density::at;
-  void at(std::size_t n, const Point* p, double* value) const override {
-    kBump.at(n, p, value);
-    for (std::size_t i = 0; i < n; ++i) value[i] = std::ldexp(value[i], -900);
-  }
-};
-
-TEST(Run, ScalesADensityOnAnyNumberOfRanks) {
-  const std::vector<Point> first = random_generators(200, kBump, 1);
-  const Tessellation alone = run(first, kBump, few_evaluations());
-  for (const int size : kRanks) {
-    Gathered gathered;
-    ThreadRanks::run(size, [&](Communicator& ranks) {
-      const Tiny tiny;
-      GatheringEvaluator evaluator(ranks, tiny);
-      Tessellation t = part_of(ranks, first);
-      iterate(evaluator, t, few_evaluations());
-      EXPECT_EQ(t.result.progress.energy, std::ldexp(alone.result.progress.energy, -900));
-      gathered.add(t.numbers, t.state.generators);
-    });
-    EXPECT_EQ(gathered.points(), alone.state.generators) << size;
-  }
 }
 
 }  // namespace

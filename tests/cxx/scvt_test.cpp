@@ -196,31 +196,12 @@ void expect_accurate(std::size_t n, int cuts, const Density& density, double tol
   }
 }
 
-TEST(Cells, OfAConstantDensityAgreeWithAFineQuadrature) {
-  const ConstantDensity density(3);
-  for (const std::size_t n : {5, 12, 50, 200}) expect_accurate(n, 2, density, 1e-7);  // large cells
-  expect_accurate(1000, 0, density, 5e-7);                                            // small
-  expect_accurate(5000, 0, density, 5e-8);                                            // tiny
-  expect_accurate(20000, 0, density, 5e-10);
-}
-
 TEST(Cells, OfASmoothDensityAgreeWithAFineQuadrature) {
   const Formula density([](const Point& p) { return std::exp(p.x + 0.5 * p.y * p.z); });
   for (const std::size_t n : {5, 12, 50}) expect_accurate(n, 2, density, 1e-6);
   expect_accurate(500, 0, density, 2e-4);  // width^3: an eighth for four times as many
   expect_accurate(2000, 0, density, 2.5e-5);
   expect_accurate(32000, 0, density, 4e-7);
-}
-
-TEST(Cells, CoverTheSphereOnce) {
-  for (const std::size_t n : {4, 12, 100, 3000, 50000}) {
-    const Tessellated t = relaxed(n, kConstant, 1);
-    Cells cells;
-    integrate(t.points.data(), t.stars, kConstant, cells);
-    ExactSum area;
-    for (const double mass : cells.mass) area.add(mass);
-    EXPECT_NEAR(area.value(), 4 * kPi, 1e-8) << n;
-  }
 }
 
 TEST(Cells, OfARoughDensityHaveMassAndEnergy) {
@@ -583,29 +564,6 @@ TEST(Run, SeparatesGeneratorsThatNearlyCoincide) {
     }
 }
 
-TEST(Run, GoesOnFromACopyOfTheStateWithTheSameBits) {
-  const std::vector<Point> first = random_generators(1500, kBump, 1);
-  Options options = options_of(1e-9);
-  options.most_evaluations = 40;
-  LocalEvaluator evaluator(kBump);
-  State whole(first);
-  const Result all = minimize(evaluator, whole, options);
-  for (const std::int64_t steps :
-       {1, 3, 4, 20}) {  // among the first steps, at their end, without and with old pairs
-    State state(first);
-    options.progress = [&](const Progress&) { return state.steps < steps; };
-    EXPECT_EQ(minimize(evaluator, state, options).end, End::stopped);
-    State copy = state;
-    state = State();
-    options.progress = nullptr;
-    LocalEvaluator another(kBump);
-    const Result rest = minimize(another, copy, options);
-    EXPECT_EQ(copy.generators, whole.generators) << steps;
-    EXPECT_EQ(copy.evaluations, whole.evaluations) << steps;
-    EXPECT_EQ(rest.progress.energy, all.progress.energy);
-  }
-}
-
 // ---- the metric of the quasi-Newton method ----
 
 double product(const std::vector<Point>& a, const std::vector<Point>& b) {
@@ -830,35 +788,10 @@ Error error_of(const std::vector<Point>& generators, const Density& density) {
   throw;
 }
 
-TEST(BadInput, GeneratorsInAHemisphere) {
-  std::vector<Point> generators = point_sets::make("random", 100, 1);
-  for (Point& p : generators) p.z = std::fabs(p.z);
-  EXPECT_THROW(run(generators, kConstant, {}), GeneratorsInHemisphere);
-  for (Point& p : generators) p.z = 0;
-  EXPECT_THROW(run(generators, kConstant, {}), GeneratorsInHemisphere);
-}
-
 /// A mesh with three boundary nodes has as many arcs as a mesh of the whole sphere.
 TEST(BadInput, GeneratorsInATriangle) {
   const std::vector<Point> generators{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, point_sets::normalized({1, 1, 1})};
   EXPECT_THROW(run(generators, kConstant, {}), GeneratorsInHemisphere);
-}
-
-TEST(BadInput, CoincidentGenerators) {
-  std::vector<Point> generators = point_sets::make("random", 100, 1);
-  generators[76] = generators[12];
-  const auto error = error_of<CoincidentGenerators>(generators, kConstant);
-  EXPECT_EQ(error.first, 13);
-  EXPECT_EQ(error.second, 77);
-  EXPECT_STREQ(error.what(), "generators 13 and 77 coincide: remove one of them");
-}
-
-TEST(BadInput, TooFewGenerators) {
-  EXPECT_THROW(run(3, kConstant, {}), BadGenerators);
-  EXPECT_THROW(run({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, kConstant, {}), BadGenerators);
-  std::vector<Point> generators = tetrahedron();
-  generators[2] = {0, 0, 0};
-  EXPECT_THROW(run(generators, kConstant, {}), BadGenerators);
 }
 
 TEST(BadInput, Densities) {

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/parallel_for.h"
 #include "point_sets.h"
 #include "stripack/voronoi.h"
 #include "support/guarded.h"
@@ -178,6 +179,7 @@ void expect_voronoi(const Plain& lists, const std::vector<Point>& points) {
       largest = std::max(largest, static_cast<int>(listc[s]));
     }
   ASSERT_EQ(largest, static_cast<int>(2 * n - 4));
+  for (int i = 0; i < 6 * far; ++i) ASSERT_TRUE(i % 6 < 3 ? ltri[i] >= 1 : ltri[i] <= far) << "far side";
   for (const auto& [t, name] : number) {
     const auto& column = expected.columns[static_cast<std::size_t>(t - 1)];
     Vector<Real> centre;
@@ -193,7 +195,12 @@ void expect_voronoi(const Plain& lists, const std::vector<Point>& points) {
 std::vector<std::vector<Point>> sets() {
   std::vector<std::vector<Point>> all;
   for (const std::size_t n : {4, 5, 6, 7, 8, 9, 12, 16, 17, 33, 500})
-    for (const char* const set : {"random", "cap"}) all.push_back(point_sets::make(set, n));
+    for (const char* const set : {"random", "cap", "small-circle:1"}) all.push_back(point_sets::make(set, n));
+  // The rounded swap tests of the original's CRLIST never end.
+  all.push_back({{-0.47685613077941658, 0.11123049037700214, 0.87191513838708845},
+                 {-0.83257100181898913, 0.37940748626865584, -0.40357835211198373},
+                 {0.062295641749798597, -0.53161973279928965, -0.84468912193622592},
+                 {0.41801051278937118, -0.79979672869094331, 0.43080436856284593}});
   all.push_back(point_sets::make("random", 20000));  // several threads, if there are any
   // Two hubs that see all other nodes, first and last in the order of nodes, or in the middle.
   for (const std::size_t between : {15u, 16u, 17u, 20u, 70u, 3000u}) {
@@ -231,6 +238,24 @@ TEST(TriangleList, NumbersTrianglesOfTheVoronoiDiagram) {
       expect_voronoi<double, std::int32_t>(lists, set);
       expect_voronoi<double, std::int64_t>(lists, set);
     }
+}
+
+/// Where the original needs N*N steps, here hours; and the same for any number of threads.
+TEST(TriangleList, OfAHubTakesNoLongerAndIsTheSameOnAnyNumberOfThreads) {
+  const std::vector<Point> ring = point_sets::make("ring", 200001);
+  const Plain lists = plain_lists(ring, Slots::canonical);
+  Arrays<std::int32_t> arrays(lists);
+  std::vector<std::int32_t> first;
+  for (const int threads : {1, 2, 3, 5}) {
+    const ChosenThreads chosen(threads);
+    std::vector<std::int32_t> ltri(9 * 2 * ring.size());
+    std::int32_t nt = -1;
+    ASSERT_EQ(triangle_list(arrays.view(), 9, nt, ltri.data()), TriangleListStatus::done);
+    EXPECT_EQ(static_cast<std::size_t>(nt), ring.size() - 1);
+    if (first.empty()) first = ltri;
+    EXPECT_EQ(ltri, first) << threads;
+    expect_voronoi<double, std::int32_t>(lists, ring);
+  }
 }
 
 TEST(CellAreas, NameNodesThatAreTooClose) {

@@ -107,16 +107,6 @@ Nodes nodes_of(const std::string& family, std::size_t n) {
 
 constexpr std::size_t kN = 2000;
 
-TEST(WarmStart, BeginsWithTheThirdCallOfNodesThatHardlyMove) {
-  Random random(1);
-  std::vector<bool> warm;
-  forget_last_meshes();
-  for (const Nodes& nodes :
-       sets_of(nodes_of("random", kN), 5, [&](Nodes&p, int) { move_all(p, 1e-3 * spacing(kN), random); }))
-    warm.push_back(call(nodes).is_warm);
-  EXPECT_EQ(warm, (std::vector<bool>{false, false, true, true, true}));
-}
-
 TEST(WarmStart, IsInvisibleUnderLloydSteps) {
   for (const std::string& family : point_sets::families()) {
     SCOPED_TRACE(family);
@@ -165,31 +155,6 @@ TEST(WarmStart, IsInvisibleWhereOneNodeJumps) {
   }));
   EXPECT_GT(tally.warm, 0);
   EXPECT_GE(tally.cold, 2 + 5);
-}
-
-/// A mesh that does not fit is tried less and less often.
-TEST(WarmStart, IsNotTriedAgainAndAgain) {
-  Random random(4);
-  forget_last_meshes();
-  int tries = 0;
-  Nodes nodes = nodes_of("random", kN);
-  for (int step = 0; step < 100; ++step) {
-    nodes[random.below(kN)] = random.direction();
-    const Columns<> c(nodes);
-    WarmStart start({c.x.data(), c.y.data(), c.z.data()}, kN);
-    std::vector<std::int32_t> list(6 * kN), lptr(6 * kN), lend(kN);
-    std::int32_t lnew;
-    tries += start.is_prepared();
-    const ListArrays lists{list.data(), lptr.data(), lend.data(), &lnew};
-    EXPECT_FALSE(start.write_lists(lists, nullptr));
-    Workspace workspace(workspace_bytes(kN));
-    lnew =
-        write_lists(delaunay(nodes.data(), kN, workspace), list.data(), lptr.data(), lend.data(), workspace);
-    start.remember(lists);
-  }
-  EXPECT_GE(tries, 2);
-  EXPECT_LE(tries, 6);
-  forget_last_meshes();
 }
 
 TEST(WarmStart, IsInvisibleUnderTiesThatAppearAndVanish) {
@@ -309,16 +274,6 @@ TEST(WarmStart, IsInvisibleWhereNodesBecomeAHemisphere) {
     for (Point& q : p) q = point_sets::normalized({q.x, q.y, q.z + 0.1});
   }));
   EXPECT_GT(tally.cold, 10);
-}
-
-TEST(WarmStart, IsInvisibleWhereNChanges) {
-  Random random(7);
-  const Tally tally = compare(sets_of(nodes_of("random", kN), 20, [&](Nodes& p, int step) {
-    move_all(p, 1e-4 * spacing(kN), random);
-    if (step % 5 == 4) p.push_back(random.direction());
-    if (step % 10 == 9) p.pop_back(), p.pop_back();
-  }));
-  EXPECT_GT(tally.warm, 4);
 }
 
 /// Remeshing: the same number of nodes, some renumbered: two nodes, neighbours or not, a run of nodes, or
@@ -686,18 +641,6 @@ TEST(WarmStart, SaysThatItHasWrittenTheLists) {
   EXPECT_TRUE(start.is_prepared());
   EXPECT_TRUE(start.write_lists({r.list.data(), r.lptr.data(), r.lend.data(), &r.lnew}, nullptr));
   EXPECT_TRUE(same(r, right));
-}
-
-/// Other nodes, as many as in a mesh that did not fit: their mesh is also kept one call later.
-TEST(WarmStart, IsAsPatientWithOtherNodesOfTheSameNumber) {
-  const Nodes here = nodes_of("random", kN), elsewhere = nodes_of("fibonacci", kN);
-  Nodes there = here;
-  there[0] = {-here[0].x, -here[0].y, -here[0].z};
-  forget_last_meshes();
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(call(here).is_warm, i == 2);
-  EXPECT_FALSE(call(there).is_warm);
-  for (int i = 0; i < 5; ++i) EXPECT_EQ(call(elsewhere).is_warm, i >= 3) << i;
-  forget_last_meshes();
 }
 
 /// A mesh that never fits, though the sample does, is tried again after 2, 4, ... 64, 64 calls.

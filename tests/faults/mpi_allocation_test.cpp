@@ -95,12 +95,7 @@ std::int64_t points_of(const pstripack_mesh* mesh) {
 TEST(EachAllocation, OfCommMode) {
   Mesh m;
   const Columns c(nodes());
-  const auto clear_arrays = [&] {
-    m.list.assign(6 * nodes().size() - 12, untouched);
-    m.lptr = m.list;
-    m.lend.assign(nodes().size(), untouched);
-    m.lnew = untouched;
-  };
+  const auto clear_arrays = [&] { m = room_for(nodes().size()); };
   const Mesh expected = trmesh(nodes());
   const auto call = [&] {
     return pstripack_trmesh(static_cast<std::int32_t>(nodes().size()), c.x.data(), c.y.data(), c.z.data(),
@@ -139,12 +134,7 @@ TEST(EachAllocation, OfDistributedMeshes) {
   for (const std::int32_t root : {0, -1}) {
     const bool gets = root == -1 || rank_of() == root;
     Mesh m;
-    const auto clear_arrays = [&] {
-      m.list.assign(6 * nodes().size() - 12, untouched);
-      m.lptr = m.list;
-      m.lend.assign(nodes().size(), untouched);
-      m.lnew = untouched;
-    };
+    const auto clear_arrays = [&] { m = room_for(nodes().size()); };
     clear_arrays();
     fail_each_allocation(
         [&] {

@@ -161,16 +161,6 @@ program scvt_module
   call expect(found%reason == pstripack_scvt_evaluations .and. found%evaluations == 7, "from generators: 7 evaluations")
   call expect(steps == 6 .and. last%generators == n .and. last%evaluations == 7, "progress")
   call expect(last%energy == found%energy .and. last%gradient == found%gradient, "progress: the result's")
-  c_options%start = pstripack_scvt_random
-  options%start = pstripack_scvt_random
-  ier = c_scvt(n, x_of_c, y_of_c, z_of_c, density, c_options, expected, c_null_ptr, 0)
-  call pstripack_scvt(x, y, z, found, ier, bump_for_fortran, options, progress)
-  call expect(ier == 0 .and. same_generators() .and. same(found, expected), "random generators")
-  c_options%start = pstripack_scvt_front
-  options%start = pstripack_scvt_front
-  ier = c_scvt(n, x_of_c, y_of_c, z_of_c, density, c_options, expected, c_null_ptr, 0)
-  call pstripack_scvt(x, y, z, found, ier, bump_for_fortran, options, progress)
-  call expect(ier == 0 .and. same_generators() .and. same(found, expected), "a front")
   options%start = pstripack_scvt_random
   steps = -2
   call pstripack_scvt(x, y, z, found, ier, options=options, progress=progress)
@@ -183,11 +173,6 @@ program scvt_module
   options = pstripack_scvt_options(tolerance=1e-2_c_double)
   call pstripack_scvt_widths(x, y, z, found, ier, bump_for_fortran, options, well_centred=.true., message=message)
   call expect(ier == 0 .and. message == "" .and. same_generators() .and. same(found, expected), "widths")
-  x = 0
-  options%widths = .true.
-  options%well_centred = .true.
-  call pstripack_scvt(x, y, z, found, ier, bump_for_fortran, options)
-  call expect(ier == 0 .and. same_generators() .and. same(found, expected), "widths, by the options")
   options%widths = .false.
   options%well_centred = .false.
   call pstripack_scvt_widths(x, y, z, found, ier, negative, options, message=message)

@@ -16,19 +16,6 @@
 
 namespace {
 
-Mesh trmesh_r4(const Nodes& nodes) {
-  const Columns c(nodes);
-  const std::vector<float> x(c.x.begin(), c.x.end()), y(c.y.begin(), c.y.end()), z(c.z.begin(), c.z.end());
-  Mesh m;
-  m.list.assign(6 * nodes.size() - 12, untouched);
-  m.lptr = m.list;
-  m.lend.assign(nodes.size(), untouched);
-  m.lnew = untouched;
-  m.ier = pstripack_trmesh_r4(static_cast<std::int32_t>(nodes.size()), x.data(), y.data(), z.data(),
-                              m.list.data(), m.lptr.data(), m.lend.data(), &m.lnew);
-  return m;
-}
-
 /// Sets comm mode for its lifetime.
 class CommMode {
  public:

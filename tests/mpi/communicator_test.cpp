@@ -10,7 +10,6 @@
 
 #include "mpi/mpi_communicator.h"
 #include "mpi_test.h"
-#include "support/failing_allocation.h"
 
 namespace {
 
@@ -168,36 +167,6 @@ TEST(Communicator, CountsWhatItSends) {
                                                    std::vector<unsigned char>(10));
   ranks.exchange(parcels_of(messages));
   EXPECT_EQ(ranks.bytes_sent, 10 * (ranks.size() - 1));
-}
-
-/// The n-th allocation fails on one rank, for every n: -6 on all ranks, and the next call works.
-TEST(Communicator, MemoryThatFailsOnOneRankFailsOnAll) {
-  for (int culprit = 0; culprit < size_of(); ++culprit) {
-    bool failed = true;
-    for (long n = 1; failed; ++n) {
-      MpiCommunicator ranks(MPI_COMM_WORLD);
-      std::vector<std::vector<unsigned char>> mine;
-      for (int r = 0; r < ranks.size(); ++r) mine.push_back(message(ranks.rank(), r, 1));
-      const Parcels outgoing = parcels_of(mine);
-      std::int64_t code = 0;
-      {
-        const FailingAllocation memory(ranks.rank() == culprit ? n : 0);
-        try {
-          ranks.exchange(outgoing);
-          ranks.all_gather(outgoing.bytes.data(), outgoing.begin.back());
-          MpiCommunicator another(MPI_COMM_WORLD);
-        } catch (const AgreedFailure& failure) {
-          code = failure.code;
-        }
-      }
-      std::int64_t codes[] = {code, -code};
-      ranks.all_min(codes, 2);
-      ASSERT_EQ(codes[0], -codes[1]) << "the ranks disagree";
-      ASSERT_TRUE(code == 0 || code == -6);
-      failed = code != 0;
-      ASSERT_EQ(parcel(ranks.exchange(outgoing), 0), message(0, ranks.rank(), 1));
-    }
-  }
 }
 
 std::int32_t code_of_communicator(MPI_Comm comm) {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "capi/pstripack_mpi.h"
-#include "mpi_test.h"
+#include "distributions.h"
 #include "point_sets.h"
 #include "support/child.h"
 #include "support/environment.h"
@@ -38,33 +38,6 @@ class OfMesh {
  private:
   pstripack_mesh* mesh_ = nullptr;
 };
-
-/// The nodes of this rank (from 0), in the order in which they are passed in.
-struct Distribution {
-  const char* name;
-  std::function<int(std::size_t node, std::size_t nodes)> rank_of_node;
-  bool reversed;
-};
-const std::vector<Distribution>& distributions() {
-  static const std::vector<Distribution> all = {
-      {"slices", [](std::size_t i, std::size_t n) { return int(i * std::size_t(size_of()) / n); }, false},
-      {"slices, last first",
-       [](std::size_t i, std::size_t n) { return size_of() - 1 - int(i * std::size_t(size_of()) / n); },
-       true},
-      {"round robin", [](std::size_t i, std::size_t) { return int(i % std::size_t(size_of())); }, false},
-      {"all on one rank", [](std::size_t, std::size_t) { return size_of() - 1; }, true},
-      {"scattered",
-       [](std::size_t i, std::size_t) { return int(i * 2654435761u % 1009 % std::size_t(size_of())); },
-       true}};
-  return all;
-}
-std::vector<std::size_t> nodes_here(const Distribution& d, std::size_t n) {
-  std::vector<std::size_t> mine;
-  for (std::size_t i = 0; i < n; ++i)
-    if (d.rank_of_node(i, n) == rank_of()) mine.push_back(i);
-  if (d.reversed) std::reverse(mine.begin(), mine.end());
-  return mine;
-}
 
 int triangulate(pstripack_mesh* mesh, const Nodes& nodes, const std::vector<std::size_t>& mine,
                 const Number& number) {
@@ -229,7 +202,7 @@ TEST(DistributedMesh, IsTheSameInAnyFloatingPointEnvironmentAndLeavesItAsItWas) 
   for (const char* family : {"pairs", "hemisphere-rim"}) {
     const Nodes nodes = point_sets::make(family, 300);
     const Mesh serial = trmesh(nodes);
-    const auto mine = nodes_here(distributions()[2], nodes.size());
+    const auto mine = nodes_here(distributions()[1], nodes.size());
     std::vector<double> xyz;
     for (const auto& p : nodes) xyz.insert(xyz.end(), {p.x, p.y, p.z});
     const auto home = [&](const pstripack_mesh* mesh) {
@@ -267,7 +240,7 @@ TEST(DistributedMesh, IsTheSameInAnyFloatingPointEnvironmentAndLeavesItAsItWas) 
 
 TEST(DistributedMesh, NothingOutsideTheArraysIsTouched) {
   const Nodes nodes = point_sets::make("hemisphere", 300);
-  const auto mine = nodes_here(distributions()[2], nodes.size());
+  const auto mine = nodes_here(distributions()[1], nodes.size());
   std::vector<double> coordinates;
   std::vector<std::int64_t> numbers;
   for (const std::size_t i : mine) {

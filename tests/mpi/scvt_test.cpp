@@ -11,29 +11,11 @@
 #include <vector>
 
 #include "capi/pstripack_mpi.h"
-#include "mpi_test.h"
+#include "distributions.h"
 #include "point_sets.h"
 #include "support/trmesh.h"
 
 namespace {
-
-/// A distribution: the rank of each generator.
-struct Distribution {
-  const char* name;
-  std::function<int(std::size_t generator, std::size_t generators)> rank;
-  bool reversed = false;
-};
-const std::vector<Distribution>& distributions() {
-  static const std::vector<Distribution> all = {
-      {"slices", [](std::size_t i, std::size_t n) { return int(i * std::size_t(size_of()) / n); }, true},
-      {"round robin", [](std::size_t i, std::size_t) { return int(i % std::size_t(size_of())); }},
-      {"all on the last rank", [](std::size_t, std::size_t) { return size_of() - 1; }},
-      {"none on even ranks", [](std::size_t i, std::size_t) {
-         const std::size_t odd = std::size_t(size_of()) / 2;
-         return odd == 0 ? 0 : int(2 * (i % odd) + 1);
-       }}};
-  return all;
-}
 
 pstripack_scvt_options of_evaluations(std::int64_t most) {
   pstripack_scvt_options options{};
@@ -62,11 +44,9 @@ Nodes start_of(std::size_t n) {
 
 /// This rank's generators, and a run of all.
 struct RunOfRanks {
-  RunOfRanks(const Nodes& nodes, const Distribution& distribution) {
+  RunOfRanks(const Nodes& nodes, const Distribution& distribution)
+      : mine(nodes_here(distribution, nodes.size())) {
     EXPECT_EQ(pstripack_mesh_create(MPI_COMM_WORLD, &mesh), 0);
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      if (distribution.rank(i, nodes.size()) == rank_of()) mine.push_back(i);
-    if (distribution.reversed) std::reverse(mine.begin(), mine.end());
     for (const std::size_t i : mine) {
       xyz.insert(xyz.end(), {nodes[i].x, nodes[i].y, nodes[i].z});
       number.push_back(static_cast<std::int64_t>(i) + 1);
@@ -344,6 +324,9 @@ TEST(DistributedScvt, BadGeneratorsAreToldOnEveryRank) {
     const auto refuses = [&](const Nodes& nodes, std::int32_t code, const std::string& why) {
       RunOfRanks run(nodes, distribution);
       expect_refusal(run, code, why);
+      std::int64_t points[2];
+      pstripack_mesh_error_points(run.mesh, &points[0], &points[1]);
+      EXPECT_EQ(points[0] == 21 && points[1] == 71, code == PSTRIPACK_COINCIDENT) << why;
     };
     Nodes nodes = good;
     nodes[20] = {2 * nodes[70].x, 2 * nodes[70].y, 2 * nodes[70].z};
@@ -369,17 +352,6 @@ TEST(DistributedScvt, BadGeneratorsAreToldOnEveryRank) {
     for (std::int64_t& number : zero.number) --number;
     expect_refusal(zero, PSTRIPACK_BAD_NUMBER, "number 0 is below 1");
   }
-}
-
-TEST(DistributedScvt, ErrorPointsAreThoseOfTheMesh) {
-  Nodes nodes = start_of(50);
-  nodes[4] = nodes[31];
-  RunOfRanks run(nodes, distributions()[1]);
-  expect_refusal(run, PSTRIPACK_COINCIDENT, "generators 5 and 32 coincide");
-  std::int64_t first, second;
-  pstripack_mesh_error_points(run.mesh, &first, &second);
-  EXPECT_EQ(first, 5);
-  EXPECT_EQ(second, 32);
 }
 
 TEST(DistributedScvt, ACountOfOneRankIsRefusedOnAll) {

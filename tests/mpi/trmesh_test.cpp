@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <limits>
 #include <string>
 #include <vector>
@@ -14,7 +13,6 @@
 #include "point_sets.h"
 #include "pool/area_layout.h"
 #include "support/columns.h"
-#include "support/failing_allocation.h"
 #include "support/lists.h"
 
 namespace {
@@ -239,49 +237,6 @@ TEST(CollectiveTrmesh, RanksThatDisagreeAreToldSo) {
       EXPECT_TRUE(o == expected) << what << ": " << o.result.ier << ", N " << o.result.node << " on rank "
                                  << o.result.other;
     }
-}
-
-/// The n-th allocation fails on one rank, for every n: -6 on all ranks, outputs untouched, and the next call
-/// works.
-TEST(CollectiveTrmesh, MemoryThatFailsOnOneRankFailsOnAll) {
-  MpiCommunicator ranks(MPI_COMM_WORLD);
-  Nodes nodes = point_sets::make("random", 60, 9);
-  for (const bool with_coincidence : {false, true}) {
-    if (with_coincidence) nodes[50] = nodes[20];
-    const Columns<double> c(nodes);
-    const Outcome expected = by_one(c);
-    for (const Arrays arrays : {Arrays::on_every_rank, Arrays::on_one_rank})
-      for (int culprit = 0; culprit<ranks.size(); culprit += ranks.size()> 1 ? ranks.size() - 1 : 1) {
-        bool failed = true;
-        for (long n = 1; failed; ++n) {
-          const bool has_arrays = arrays == Arrays::on_every_rank || ranks.rank() == 0;
-          Outcome o(has_arrays ? nodes.size() : 0);
-          {
-            const FailingAllocation memory(ranks.rank() == culprit ? n : 0);
-            try {
-              TrmeshCall call = call_of(c, o);
-              if (!has_arrays) call.n = 0;
-              o.result = collective_trmesh(ranks, arrays, call);
-            } catch (const AgreedFailure& failure) {
-              o.result = {failure.code};
-            } catch (const std::exception& error) {
-              ranks.abort("a failure not agreed on", error.what());  // the others would wait for ever
-            }
-          }
-          std::int64_t codes[] = {o.result.ier, -o.result.ier};
-          ranks.all_min(codes, 2);
-          ASSERT_EQ(codes[0], -codes[1]) << "the ranks disagree";
-          failed = o.result.ier == -6;
-          if (failed) {
-            Outcome nothing(has_arrays ? nodes.size() : 0);
-            nothing.result = o.result;
-            ASSERT_TRUE(o == nothing) << "outputs written, allocation " << n;
-          } else if (has_arrays) {
-            ASSERT_TRUE(o == expected) << "allocation " << n;
-          }
-        }
-      }
-  }
 }
 
 TEST(Pieces, RingsOfEveryLengthAreCopied) {

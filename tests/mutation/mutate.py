@@ -1,29 +1,27 @@
 #!/usr/bin/env python3
 """Mutation testing of the predicates and the validators.
 
-  tests/mutation/mutate.py [--per-line K] [--file PART] BUILD
+  tests/mutation/mutate.py BUILD [PART]      PART: of the name of a file
 
 Plants one bug at a time in a copy of the sources: operators, constants, conditions, arguments, dropped statements. Of
-each line it draws K mutants that are not equivalent, the same in every run (0: all). It builds the tests that should
-notice and runs them, the quickest first. A mutant is caught if a test fails, crashes or takes 20 times its usual time.
-A mutant is equivalent if the compiler makes the same code of it.
+each line it draws one mutant, the same in every run. It builds the tests that should notice and runs them, the
+quickest first. A mutant is caught if a test fails, crashes or takes 20 times its usual time. A mutant is equivalent,
+and not counted, if the compiler makes the same code of it.
 
 Prints the survivors, to be read: those that matter need a test. Most change no result: a filter with a larger bound, an
 arc judged from its other end, too, a read ahead, more room, other threads. Fails if more than a quarter of the mutants
-of a file survive. Caught mutants are recorded in BUILD/caught and not tried again; remove that file to start over.
-Takes about an hour of one processor.
+of a file survive. Takes about an hour of one processor.
 """
 
-import argparse
 import pathlib
 import random
 import re
 import resource
 import subprocess
 import sys
-import time
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
+PER_LINE = 1
 # Of each file the lines from the first text to the second; the tests: (executable, filter, share of the cases).
 QUICK = ("predicates_test", "-Exact.*:Filter.IsMeasured*", 0.01)
 LONGER = ("predicates_test", "-Exact.*:Filter.IsMeasured*", 0.05)
@@ -99,31 +97,29 @@ def mutants_of(line):
     return sorted(set(found) - {code})
 
 
+def run(command, **options):
+    return subprocess.run(command, capture_output=True, text=True, **options)
+
+
 class Mutation:
     def __init__(self, build):
-        self.build = build
-        self.tree = build / "source"
-        files = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=SOURCE, check=True,
-                               capture_output=True, text=True).stdout.split("\n")
-        for name in filter(lambda name: (SOURCE / name).is_file(), files):
-            text = (SOURCE / name).read_bytes()
-            copy = self.tree / name
-            if not copy.exists() or copy.read_bytes() != text:
-                copy.parent.mkdir(parents=True, exist_ok=True)
-                copy.write_bytes(text)
-        subprocess.run(["cmake", "-S", self.tree, "-B", build / "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                        "-DCMAKE_CXX_FLAGS_RELEASE=-O1", "-DPSTRIPACK_TOOLS=OFF", "-DPSTRIPACK_EXAMPLES=OFF",
-                        "-DPSTRIPACK_WITH_MPI=OFF"], check=True, stdout=subprocess.DEVNULL)
+        self.build, self.tree = build / "build", build / "source"
+        for name in run(["git", "ls-files", "-co", "--exclude-standard"], cwd=SOURCE, check=True).stdout.split("\n"):
+            if (SOURCE / name).is_file():
+                text, copy = (SOURCE / name).read_bytes(), self.tree / name
+                if not copy.exists() or copy.read_bytes() != text:
+                    copy.parent.mkdir(parents=True, exist_ok=True)
+                    copy.write_bytes(text)
+        run(["cmake", "-S", self.tree, "-B", self.build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+             "-DCMAKE_CXX_FLAGS_RELEASE=-O1", "-DPSTRIPACK_TOOLS=OFF", "-DPSTRIPACK_EXAMPLES=OFF",
+             "-DPSTRIPACK_WITH_MPI=OFF"], check=True)
 
-    def make(self, target, check=False):
-        done = subprocess.run(["ninja", "-C", self.build / "build", target], capture_output=True, text=True)
-        if check and done.returncode != 0:
-            sys.exit(done.stdout)
-        return done.returncode == 0
+    def makes(self, target):
+        return run(["ninja", "-C", self.build, target]).returncode == 0
 
     def objects(self):
         """The object code of the library."""
-        return {p: p.read_bytes() for p in sorted((self.build / "build/src/cxx").rglob("*.o"))}
+        return {p: p.read_bytes() for p in sorted((self.build / "src/cxx").rglob("*.o"))}
 
     def passes(self, stage, seconds):
         """True if the tests of the stage pass within this processor time, in seconds."""
@@ -136,93 +132,57 @@ class Mutation:
                 resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
 
         folder = "faults" if test == "allocation_test" else "cxx"
-        done = subprocess.run([self.build / "build/tests" / folder / test, f"--gtest_filter={pattern}", "--gtest_brief=1"],
-                              env={"GTEST_FAIL_FAST": "1", "PSTRIPACK_CASES": str(share), "OMP_NUM_THREADS": "2"},
-                              preexec_fn=limits, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        return done.returncode == 0
+        return run([self.build / "tests" / folder / test, f"--gtest_filter={pattern}", "--gtest_brief=1"],
+                   env={"GTEST_FAIL_FAST": "1", "PSTRIPACK_CASES": str(share), "OMP_NUM_THREADS": "2"},
+                   preexec_fn=limits, errors="replace").returncode == 0
 
-    def prepare(self, stages):
-        """Builds the tests, unchanged; the processor time to allow for each stage."""
-        seconds = []
-        for stage in stages:
-            self.make(stage[0], check=True)
-            before = resource.getrusage(resource.RUSAGE_CHILDREN)
-            if not self.passes(stage, 3600):
-                sys.exit(f"{stage[0]} fails without a mutant")
-            after = resource.getrusage(resource.RUSAGE_CHILDREN)
-            seconds.append(int(20 * (after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)) + 5)
-        return seconds
+    def seconds(self, stage):
+        """Builds and runs a stage without a mutant; the processor time to allow for it."""
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        if not self.makes(stage[0]) or not self.passes(stage, 3600):
+            sys.exit(f"{stage[0]} fails without a mutant")
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return int(20 * (after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)) + 5
 
     def outcome(self, stages, seconds, original):
-        if not self.make(stages[0][0]):
-            return "no program"
-        if original and self.objects() == original:
-            return "equivalent"
         for stage, limit in zip(stages, seconds):
-            if not self.make(stage[0]):
+            if not self.makes(stage[0]):
                 return "no program"
+            if original and self.objects() == original:
+                return "equivalent"
             if not self.passes(stage, limit):
                 return "caught"
         return "survived"
 
 
 def main():
-    parser = argparse.ArgumentParser(usage=__doc__)
-    parser.add_argument("--per-line", type=int, default=2)
-    parser.add_argument("--file", default="")
-    parser.add_argument("build", type=pathlib.Path)
-    arguments = parser.parse_args()
-    build = arguments.build.resolve()
-    mutation = Mutation(build)
-    kept = build / "caught"
-    caught_before = set(kept.read_text().splitlines()) if kept.exists() else set()
-    total = {"lines": 0, "mutants": 0, "caught": 0, "equivalent": 0, "survived": 0}
-    poor = []
+    mutation, poor = Mutation(pathlib.Path(sys.argv[1]).resolve()), []
     for name, (first, last, stages) in SUBJECTS.items():
-        if arguments.file not in name:
+        if len(sys.argv) > 2 and sys.argv[2] not in name:
             continue
-        start = time.time()
         copy = mutation.tree / name
         lines = copy.read_text().split("\n")
         begin = next(k for k, line in enumerate(lines) if first in line)
         end = next(k for k, line in enumerate(lines) if k > begin and last in line)
-        seconds = mutation.prepare(stages)
+        seconds = [mutation.seconds(stage) for stage in stages]
         original = {} if name.endswith("predicates.h") else mutation.objects()  # inlined elsewhere
-        count = dict.fromkeys(total, 0)
+        count = {"caught": 0, "survived": 0}
         for k in range(begin, end):
-            mutants = mutants_of(lines[k])
+            mutants, left = mutants_of(lines[k]), PER_LINE
             random.Random(lines[k]).shuffle(mutants)
-            text, outcomes = lines[k].strip(), []
-            for mutant in mutants:
-                if arguments.per_line and len(outcomes) - outcomes.count("equivalent") >= arguments.per_line:
-                    break
-                key = f"{name} | {text} | {mutant.strip()}"
-                if key in caught_before:
-                    outcomes.append("caught")
-                else:
-                    copy.write_text("\n".join(lines[:k] + [mutant] + lines[k + 1:]))
-                    outcome = mutation.outcome(stages, seconds, original)
-                    if outcome == "no program":
-                        continue
-                    outcomes.append(outcome)
-                    if outcome == "caught":
-                        with kept.open("a") as file:
-                            file.write(key + "\n")
-                    elif outcome == "survived":
-                        print(f"survived {name}:{k + 1}: {text}\n    {mutant.strip()}", flush=True)
-            if outcomes:
-                count["lines"] += 1
-                count["mutants"] += len(outcomes)
-                for what in ("caught", "equivalent", "survived"):
-                    count[what] += outcomes.count(what)
+            while mutants and left > 0:
+                mutant = mutants.pop()
+                copy.write_text("\n".join(lines[:k] + [mutant] + lines[k + 1:]))
+                outcome = mutation.outcome(stages, seconds, original)
+                if outcome in count:
+                    count[outcome] += 1
+                    left -= 1
+                if outcome == "survived":
+                    print(f"survived {name}:{k + 1}: {lines[k].strip()}\n    {mutant.strip()}", flush=True)
         copy.write_text("\n".join(lines))
-        print(f"{name}: " + ", ".join(f"{value} {what}" for what, value in count.items()) +
-              f"; {time.time() - start:.0f} s", flush=True)
+        print(f"{name}: {count['caught']} caught, {count['survived']} survived", flush=True)
         if 3 * count["survived"] > count["caught"]:
             poor.append(name)
-        for what in total:
-            total[what] += count[what]
-    print(", ".join(f"{value} {what}" for what, value in total.items()))
     for name in poor:
         print("too many survive:", name)
     sys.exit(1 if poor else 0)

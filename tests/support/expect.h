@@ -16,7 +16,7 @@ inline bool is_untouched(const Mesh& m) {
   return all(m.list) && all(m.lptr) && all(m.lend) && m.lnew == untouched;
 }
 
-/// V of tests/catalogue/rows.toml: IER = 0, canonical lists, nothing written behind them, accepted by the
+/// IER = 0, canonical lists, nothing written behind them, accepted by the
 /// library's validator and by the tests' own judge.
 inline ::testing::AssertionResult is_correct(const Nodes& nodes, const Mesh& m) {
   if (m.ier != 0) return ::testing::AssertionFailure() << "IER = " << m.ier;

@@ -15,17 +15,30 @@ struct Mesh : Lists {
   std::int32_t ier = 0;
 };
 
-/// Arrays of exactly 6n-12 and n entries.
-inline Mesh trmesh(const Nodes& nodes) {
-  const Columns c(nodes);
-  const std::size_t n = nodes.size(), slots = n < 3 ? 1 : 6 * n - 12;
+/// Arrays of exactly 6n-12 and n entries, not yet written.
+inline Mesh room_for(std::size_t n) {
   Mesh m;
-  m.list.assign(slots, untouched);
-  m.lptr.assign(slots, untouched);
+  m.list.assign(n < 3 ? 1 : 6 * n - 12, untouched);
+  m.lptr = m.list;
   m.lend.assign(n, untouched);
   m.lnew = untouched;
-  m.ier = pstripack_trmesh(static_cast<std::int32_t>(n), c.x.data(), c.y.data(), c.z.data(), m.list.data(),
-                           m.lptr.data(), m.lend.data(), &m.lnew);
+  return m;
+}
+
+inline Mesh trmesh(const Nodes& nodes) {
+  const Columns c(nodes);
+  Mesh m = room_for(nodes.size());
+  m.ier = pstripack_trmesh(static_cast<std::int32_t>(nodes.size()), c.x.data(), c.y.data(), c.z.data(),
+                           m.list.data(), m.lptr.data(), m.lend.data(), &m.lnew);
+  return m;
+}
+
+/// The same in single precision.
+inline Mesh trmesh_r4(const Nodes& nodes) {
+  const Columns<float> c(nodes);
+  Mesh m = room_for(nodes.size());
+  m.ier = pstripack_trmesh_r4(static_cast<std::int32_t>(nodes.size()), c.x.data(), c.y.data(), c.z.data(),
+                              m.list.data(), m.lptr.data(), m.lend.data(), &m.lnew);
   return m;
 }
 

@@ -248,17 +248,6 @@ idle)
   ends_within 20
   [ $code -eq 0 ] || fail "exit code $code"
   ;;
-stopped)
-  start pid "$CALLER" pause 5000 2
-  worker=$(process_of_rank 1 pstripack-worker)
-  kill -STOP "$worker"
-  sleep "${STOPPED_SECONDS:-4}"
-  grep -q 'done' job.out && fail "the call did not wait"
-  kill -CONT "$worker"
-  ends_within 20
-  [ $code -eq 0 ] || fail "exit code $code"
-  grep -q '^pool$' job.out || fail "the pool was not used"
-  ;;
 kill_idle)
   last=$((ranks - 1))
   start pid "$CALLER" pause 5000 60
@@ -268,21 +257,6 @@ kill_idle)
   [ $code -ne 0 ] || fail "exit code 0"
   says_once "pstripack: rank [0-9]* was lost"
   says "rank $last was lost during its wait for a call"
-  ;;
-kill_during_call)
-  # At several moments of a call. Hydra kills the other ranks so soon that on a loaded machine one of these may be named.
-  [ "$OPEN_MPI" = TRUE ] && lost=1 || lost='[0-9]*'
-  for delay in 0.00 0.05 0.11; do
-    start 'call 2' "$CALLER" calls 400000 400
-    sleep $delay
-    kill_rank 1
-    ends_within 10
-    [ $code -ne 0 ] || fail "exit code 0"
-    says_once "pstripack: rank [0-9]* was lost"
-    # All phases of a call, and the time between two calls.
-    says "rank $lost was lost during \(scatter the nodes\|move the stars\|divide\|triangulate\|merge\|lists\|gather the lists\|idle\|its wait\)"
-    grep "was lost" job.err
-  done
   ;;
 kill_rank_0)
   start pid "$CALLER" pause 5000 60

@@ -1,2 +1,0 @@
-#pragma once
-struct Grid {};

@@ -1,1 +1,0 @@
-#include "comparison.h"
