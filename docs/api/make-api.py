@@ -7,7 +7,6 @@
   src/fortran/plain_forwarders.inc  those of its routines that only call their C function: all that
                                     stripack_abi.F90 does not have itself
   src/cxx/capi/plain_calls.h        the C functions that these call
-  src/fortran/symbols.txt           the symbols that each library exports
   src/fortran/stripack.h.in         their prototypes for C and C++; CMake fills in the types of each library
   src/fortran/stripack.pyf          the signatures of libstripack for f2py
 
@@ -445,7 +444,7 @@ def forwarder(routine):
     call = f"c_{name}({arguments})"
     c_procedure = "function" if kind else "subroutine"
     c_kind = {"logical": "integer"}.get(kind, kind)
-    of = "OF_REAL" if "real" in [a.type for a in routine.arguments] else "OF_INTEGER"
+    of = "OF_REAL" if has_reals(routine) else "OF_INTEGER"
     head = f"{ABI_KINDS[kind]} function" if kind else "subroutine"
     statement = f"{name} = {call}{' /= 0' if kind == 'logical' else ''}" if kind else f"call {call}"
     return "\n".join([
@@ -459,20 +458,20 @@ def forwarder(routine):
         fortran_line(statement, "  "), f"end {c_procedure}", "#endif"])
 
 
-def declarations_in_c(routine):
-    """Of the C function of each kind, or of integers of 4 and 8 bytes if the routine has no reals."""
-    has_reals = "real" in [a.type for a in routine.arguments]
-    kinds = [("r4", "float", "int32_t"), ("r8", "double", "int32_t"), ("i8", "double", "int64_t")]
-    text = []
-    for suffix, real, integer in kinds if has_reals else [("i4", None, "int32_t"), ("i8", None, "int64_t")]:
-        of_c = {"integer": integer, "logical": integer, "real": real}
-        arguments = [(("const " if a.use == "in" and a.shape else "") + of_c[a.type]
-                      + (" " if a.use == "in" and not a.shape else "* ") + name.lower()).replace(" ", NO_BREAK)
-                     for a in routine.arguments for name in a.names]
-        text.append(textwrap.fill(f"{of_c[routine.result[0]] if routine.result else 'void'} pstripack_"
-                                  f"{routine.name.lower()}_{suffix}({', '.join(arguments)}) noexcept;",
-                                  110, subsequent_indent="    "))
-    return "\n".join(text).replace(NO_BREAK, " ")
+def has_reals(routine):
+    return "real" in [a.type for a in routine.arguments]
+
+
+def declaration_in_c(routine):
+    """Of the C function, in a macro of its kinds."""
+    of_c = {"integer": "Int", "logical": "Int", "real": "Real"}
+    arguments = [(("const " if a.use == "in" and a.shape else "") + of_c[a.type]
+                  + (" " if a.use == "in" and not a.shape else "* ") + name.lower()).replace(" ", NO_BREAK)
+                 for a in routine.arguments for name in a.names]
+    text = textwrap.fill(f"{of_c[routine.result[0]] if routine.result else 'void'} pstripack_"
+                         f"{routine.name.lower()}_##suffix({', '.join(arguments)}) noexcept;",
+                         108, initial_indent="  ", subsequent_indent="      ")
+    return text.replace("\n", " \\\n").replace(NO_BREAK, " ")
 
 
 PLAIN_CALLS = """#pragma once
@@ -484,7 +483,18 @@ PLAIN_CALLS = """#pragma once
 #pragma GCC visibility push(default)
 extern "C" {{
 
+#define LIST_CALLS(Int, suffix) \\
 {}
+LIST_CALLS(int32_t, i4)
+LIST_CALLS(int64_t, i8)
+#undef LIST_CALLS
+
+#define NODE_CALLS(Real, Int, suffix) \\
+{}
+NODE_CALLS(float, int32_t, r4)
+NODE_CALLS(double, int32_t, r8)
+NODE_CALLS(double, int64_t, i8)
+#undef NODE_CALLS
 
 }}
 #pragma GCC visibility pop
@@ -498,7 +508,9 @@ def plain_files(routines):
     return {"src/fortran/plain_forwarders.inc":
             "! Made by docs/api/make-api.py. What a forwarder may do: stripack_abi.F90.\n\n"
             + "\n\n".join(map(forwarder, plain)) + "\n",
-            "src/cxx/capi/plain_calls.h": PLAIN_CALLS.format("\n\n".join(map(declarations_in_c, plain)))}
+            "src/cxx/capi/plain_calls.h": PLAIN_CALLS.format(
+                *(" \\\n".join(declaration_in_c(routine) for routine in plain if has_reals(routine) == reals)
+                  for reals in (False, True)))}
 
 
 # ---- C, C++, f2py ----
@@ -598,7 +610,6 @@ def make_all(groups):
     routines = [routine for _, members in groups for routine in members]
     files = {"docs/api/README.md": markdown_index(groups), "docs/api/ier.md": markdown_ier(groups),
              "src/fortran/stripack_module.F90": module_text(groups),
-             "src/fortran/symbols.txt": "".join(sorted(f"{routine.name.lower()}_\n" for routine in routines)),
              "src/fortran/stripack.h.in": c_header(routines), "src/fortran/stripack.pyf": pyf(routines),
              **plain_files(routines)}
     for routine in routines:

@@ -119,33 +119,27 @@ module pstripack
     module procedure trmesh_real32, trmesh_real64
   end interface
 
-  interface
+  abstract interface
     ! int32_t pstripack_trmesh(int32_t n, const double* x, const double* y, const double* z, int32_t* list,
     !                          int32_t* lptr, int32_t* lend, int32_t* lnew);
-    function c_trmesh(n, x, y, z, list, lptr, lend, lnew) result(ier) bind(c, name="pstripack_trmesh")
+    function trmesh_in_c(n, x, y, z, list, lptr, lend, lnew) result(ier) bind(c)
       import :: c_double, c_int32_t
       integer(c_int32_t), value, intent(in) :: n
       real(c_double), intent(in) :: x(*), y(*), z(*)
       integer(c_int32_t), intent(inout) :: list(*), lptr(*), lend(*), lnew
       integer(c_int32_t) :: ier
     end function
+  end interface
+  procedure(trmesh_in_c), bind(c, name="pstripack_trmesh") :: c_trmesh
+  procedure(trmesh_in_c), bind(c, name="pstripack_delaunay") :: c_delaunay
 
+  interface
     ! int32_t pstripack_trmesh_r4(int32_t n, const float* x, const float* y, const float* z, int32_t* list,
     !                             int32_t* lptr, int32_t* lend, int32_t* lnew);
     function c_trmesh_r4(n, x, y, z, list, lptr, lend, lnew) result(ier) bind(c, name="pstripack_trmesh_r4")
       import :: c_float, c_int32_t
       integer(c_int32_t), value, intent(in) :: n
       real(c_float), intent(in) :: x(*), y(*), z(*)
-      integer(c_int32_t), intent(inout) :: list(*), lptr(*), lend(*), lnew
-      integer(c_int32_t) :: ier
-    end function
-
-    ! int32_t pstripack_delaunay(int32_t n, const double* x, const double* y, const double* z, int32_t* list,
-    !                            int32_t* lptr, int32_t* lend, int32_t* lnew);
-    function c_delaunay(n, x, y, z, list, lptr, lend, lnew) result(ier) bind(c, name="pstripack_delaunay")
-      import :: c_double, c_int32_t
-      integer(c_int32_t), value, intent(in) :: n
-      real(c_double), intent(in) :: x(*), y(*), z(*)
       integer(c_int32_t), intent(inout) :: list(*), lptr(*), lend(*), lnew
       integer(c_int32_t) :: ier
     end function

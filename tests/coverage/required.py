@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 """required.py COVERAGE.json: fails if required branches are not covered.
 
-These lines of gcovr's report must be covered with all their branches, unless a comment "// untested: reason" stands at
-the end of the line or above the statement:
+These lines of gcovr's report must be covered with all their branches, unless untested.txt excuses them:
   - the files of REQUIRED: the predicates and the validators;
   - the error paths of all of src/: every line that raises, catches or returns an error (ERROR), and the
     condition that leads there.
@@ -10,7 +9,7 @@ the end of the line or above the statement:
 Only the first pairs of branches of a line count, one pair per condition in its text: after them gcov lists the branches
 of the clean-up after exceptions.
 
-Such a comment that is not needed any more is an error, too.
+An excuse that is not needed any more is an error, too.
 """
 
 import json
@@ -27,7 +26,7 @@ REQUIRED = [
     "src/cxx/lists/adjacency_lists.cpp",
 ]
 ERROR = re.compile(
-    r"\bthrow\b|\bcatch \(|return \{?-\d|return (defect|malformed)\(|Status::(?!done\b)\w+|"
+    r"\bthrow\b|\bcatch \(|return \{?(-\d|PSTRIPACK_(?!OK\b))|return (defect|malformed)\(|Status::(?!done\b)\w+|"
     r"\b(out_of_memory|not_finite|no_such_node|no_neighbour|broken_lists)\b|PSTRIPACK_[A-Z_]*(MEMORY|FINITE|MANY)")
 
 source = pathlib.Path(__file__).resolve().parents[2]
@@ -37,15 +36,13 @@ def code_of(line):
     return "" if line.lstrip().startswith("//") else line.split("//")[0].strip()
 
 
-def may_be_untested(lines):
-    """The numbers, from 0, of the lines that comments excuse: of each comment its own line or the statement below."""
-    for k, line in enumerate(lines):
-        if "// untested: " in line:
-            if code_of(line):
-                yield {k}
-            else:
-                end = next(i for i in range(k + 1, len(lines)) if lines[i][-1:] in ("{", ";"))
-                yield set(range(k + 1, end + 1))
+def may_be_untested(name, code):
+    """The numbers, from 0, of the lines of the statements in a file that untested.txt excuses."""
+    excuses = (pathlib.Path(__file__).parent / "untested.txt").read_text()
+    for first in re.findall(rf"^{re.escape(name)}: .*\n    (.*)$", excuses, re.MULTILINE):
+        begin = code.index(code_of(first))
+        end = next(i for i in range(begin, len(code)) if code[i][-1:] in ("{", ";"))
+        yield set(range(begin, end + 1))
 
 
 def conditions(text):
@@ -75,7 +72,7 @@ def main():
         name = file["file"]
         lines = (source / name).read_text().splitlines()
         code = [code_of(line) for line in lines]
-        allowed = list(may_be_untested(lines))
+        allowed = list(may_be_untested(name, code))
         used = set()
         covered = {line["line_number"] - 1: line for line in file["lines"] if not line["gcovr/noncode"]}
         wanted = set(covered) if name in REQUIRED else set()

@@ -196,7 +196,7 @@ TYPED_TEST(Edit, RefusedNodes) {
       -4);
   EXPECT_TRUE(unchanged());
   mesh.lnew = 6 * 11;  // does not leave room for another node
-  EXPECT_EQ(mesh.add({1, 0, 0}), -9);
+  EXPECT_EQ(mesh.add({1, 0, 0}), -13);
   mesh.lnew = before.lnew;
   EXPECT_TRUE(unchanged());
 }

@@ -287,47 +287,6 @@ TEST(Differential, TRMESH_steps) {
   expect_equal(result, 60);
 }
 
-/// NEAR found by location equals the original's bookkeeping if the triangulation is correct.
-TEST(Differential, TRMESH_start_nodes) {
-  int compared = 0;
-  for (const char* family :
-       {"random", "fibonacci", "icosahedral", "clusters", "latlon", "healpix", "cubed-sphere",
-        "reduced-gaussian", "ring", "hemisphere", "cap", "antipodal", "variable", "pairs"})
-    for (const std::size_t n : {30, 100, 500, 2000, 10000})
-      for (const bool is_sorted : {false, true}) {
-        std::vector<Point> points;
-        try {
-          points = point_sets::make(family, n);
-        } catch (const std::invalid_argument&) {
-          continue;
-        }
-        if (is_sorted)
-          std::sort(points.begin(), points.end(), [](const Point& p, const Point& q) { return p.z < q.z; });
-        const NodeSet nodes = node_set(family, points);
-        const auto inserted = [&](StartSearch search) {
-          seeds_of_thread() = {};
-          return insert_in_order(nodes.n(), nodes.x.data(), nodes.y.data(), nodes.z.data(), kNgmath,
-                                 Hopeless::goes_on, search);
-        };
-        const InsertedNodes<int> simulated = inserted(StartSearch::simulated);
-        if (simulated.outcome.end != InsertionEnd::complete ||
-            !is_valid(points.data(), simulated.view(), Lengths::automatic, Ties::either_way))
-          continue;
-        ++compared;
-        for (const StartSearch search : {StartSearch::by_location, StartSearch::adaptive}) {
-          const InsertedNodes<int> other = inserted(search);
-          ASSERT_EQ(other.outcome.end, InsertionEnd::complete);
-          EXPECT_TRUE(std::equal(simulated.list.data(), simulated.list.data() + simulated.list.size(),
-                                 other.list.data()) &&
-                      std::equal(simulated.lptr.data(), simulated.lptr.data() + simulated.lptr.size(),
-                                 other.lptr.data()))
-              << family << " " << n << (is_sorted ? " sorted" : "");
-        }
-      }
-  EXPECT_GT(compared, 50);
-  std::printf("%d sets compared\n", compared);
-}
-
 /// Checks that insertions which were given up early would have had a wrong result. Returns their number.
 template <class Real>
 int times_given_up() {

@@ -8,7 +8,7 @@
  *
  *   trprnt, trlprt      f90: 1 for the layout of the Fortran 90 text, 0 for that of Algorithm 772
  *   trplot, vrplot      ier: 0; 1 bad lun, pltsiz, n or nt; 2 bad elat, elon or a; -5 a point that is not
- *                       finite or far from unit length; -6 out of memory; -9 not the lists of a triangulation
+ *                       finite or far from unit length; -6 out of memory; -13 not the lists of a triangulation
  *                       or Voronoi diagram. NULL unless 0. title[title_length]; numbr: 0 or not
  *   voronoi_poly_count  needs no reals: _i4, _i8
  *

@@ -18,16 +18,10 @@ namespace {
 
 using namespace pstripack;
 
-/// The code that a program gets (PSTRIPACK_CODES).
-int code_of(int status) {
-  if (status == broken_lists) return PSTRIPACK_BAD_LISTS;
-  return status == static_cast<int>(EdgeStatus::not_possible) ? PSTRIPACK_NO_EDGE : status;
-}
-
 /// Returns the code. If STRIPACK does not have it, prints the reason on stderr.
 template <class Status>
 int said(const char* routine, Status status, const char* why = nullptr) {
-  const int ier = code_of(static_cast<int>(status));
+  const int ier = static_cast<int>(status);
   if (ier < PSTRIPACK_COLLINEAR)
     std::fprintf(stderr, "pstripack: %s: code %d: %s\n", routine, ier,
                  why != nullptr ? why : pstripack_strerror(ier));
@@ -93,7 +87,7 @@ extern "C" {
                 }));                                                                                        \
     if (failure.ier == 0) return;                                                                           \
     *nit = failure.nit;                                                                                     \
-    *optim_ier = code_of(static_cast<int>(failure.ier));                                                    \
+    *optim_ier = failure.ier;                                                                               \
   }                                                                                                         \
   void pstripack_addnod_##suffix(Int nst, Int k, const Real* x, const Real* y, const Real* z, Int* list,    \
                                  Int* lptr, Int* lend, Int* lnew, Int* ier) noexcept {                      \
@@ -111,7 +105,7 @@ extern "C" {
                 }));                                                                                        \
     if (failure.ier == 0) return;                                                                           \
     *nit = failure.nit;                                                                                     \
-    *optim_ier = code_of(static_cast<int>(failure.ier));                                                    \
+    *optim_ier = failure.ier;                                                                               \
   }
 
 LIST_EDIT_CALLS(int32_t, i4)

@@ -32,8 +32,6 @@ namespace {
 
 using namespace pstripack;
 
-constexpr int not_finite = PSTRIPACK_BAD_COORDINATE;
-
 template <class Int>
 ListsView<Int> view(Int n, const Int* list, const Int* lptr, const Int* lend) {
   return {static_cast<std::size_t>(n), list, lptr, lend, 0};
@@ -52,7 +50,6 @@ int caught(const char* routine, long long n, const Call& call) {
   int code = PSTRIPACK_OUT_OF_MEMORY;
   try {
     code = static_cast<int>(call());
-    if (code == static_cast<int>(VoronoiStatus::broken_lists)) code = PSTRIPACK_BAD_LISTS;
   } catch (...) {  // only std::bad_alloc is possible
   }
   const char* const why = pstripack_strerror(code);
@@ -126,7 +123,8 @@ extern "C" {
                                  Int* ier) noexcept {                                                      \
     Vector<Real> centre;                                                                                   \
     *ier = code_of("CIRCUM", 0, [&] {                                                                      \
-      if (!is_finite(vector(v1)) || !is_finite(vector(v2)) || !is_finite(vector(v3))) return not_finite;   \
+      if (!is_finite(vector(v1)) || !is_finite(vector(v2)) || !is_finite(vector(v3)))                      \
+        return int{PSTRIPACK_BAD_COORDINATE};                                                              \
       return circumcentre(vector(v1), vector(v2), vector(v3), centre) ? 0 : 1;                             \
     });                                                                                                    \
     if (*ier != 0) return;                                                                                 \

@@ -51,9 +51,7 @@ template <class Int, class Compose>
 void* picture(const char* routine, Int& ier, const Compose& compose) {
   PlotStatus status = PlotStatus::done;
   void* text = composed(routine, [&](FormattedText& out) { status = compose(out); });
-  ier = text == nullptr                      ? Int{PSTRIPACK_OUT_OF_MEMORY}
-        : status == PlotStatus::broken_lists ? Int{PSTRIPACK_BAD_LISTS}
-                                             : static_cast<Int>(status);
+  ier = text == nullptr ? Int{PSTRIPACK_OUT_OF_MEMORY} : static_cast<Int>(status);
   if (text != nullptr && ier < 0)
     std::fprintf(stderr, "pstripack: %s: IER = %d: %s\n", routine, static_cast<int>(ier),
                  ier == PSTRIPACK_BAD_COORDINATE ? "a point is not finite, or far from the unit sphere"

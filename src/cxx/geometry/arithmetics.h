@@ -19,19 +19,6 @@ using Real = mp::number<mp::cpp_bin_float<bits, mp::digit_base_2, void, std::int
 
 constexpr double u = 0x1p-53;
 
-template <class T>
-struct Vector3 {
-  T x, y, z;
-};
-template <class T>
-Vector3<T> cross(const Vector3<T>& a, const Vector3<T>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-template <class T>
-T dot(const Vector3<T>& a, const Vector3<T>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
 /// What they differ in:
 ///   kUnit          bound of the relative error of an operation
 ///   kSide, kApart  a side has an error of kSide of its length and 2^kApart
@@ -46,15 +33,12 @@ struct Arithmetic<double> {
   static constexpr int kApart = -98;
   using Corner = const Direction&;
   static Corner corner(const Direction& d) { return d; }
-  static Vector3<double> side(Corner to, Corner from) {
-    const Point d = difference(to, from);
-    return {d.x, d.y, d.z};
-  }
-  static Vector3<double> sum(Corner a, Corner b) {
+  static Point side(Corner to, Corner from) { return difference(to, from); }
+  static Point sum(Corner a, Corner b) {
     return {(a.high.x + b.high.x) + (a.low.x + b.low.x), (a.high.y + b.high.y) + (a.low.y + b.low.y),
             (a.high.z + b.high.z) + (a.low.z + b.low.z)};
   }
-  static Vector3<double> position(Corner d) { return {d.high.x, d.high.y, d.high.z}; }
+  static Point position(Corner d) { return d.high; }
   static double value(double v, int exponent = 0) { return exponent == 0 ? v : std::ldexp(v, exponent); }
   static double square_root(double v) { return std::sqrt(v); }
 };

@@ -102,19 +102,22 @@ constexpr double kFactor = 28 * u;
 constexpr double kNegligible = 0x1p-900;
 constexpr double kLost = 0x1p-963;  ///< 2^47 of what a component of N loses by underflow
 
-/// A node seen from the apex. Each factor N is stored multiplied by `by`, so G and q are multiplied by by^2.
+/// A node seen from the apex, in the arithmetic T: double or DoubleDouble. Each factor N is stored multiplied
+/// by `by`, so G and q are multiplied by by^2.
+template <class T>
 struct Seen {
-  double y, z;                ///< components of N
+  T y, z;                     ///< components of N
   double py, pz;              ///< bounds of the sums of the absolute values of their terms
-  double g, q;                ///< G, and the quantity that its error is relative to
+  T g;                        ///< G
+  double q;                   ///< the quantity that the error of G is relative to
   double weight = 1, by = 1;  ///< powers of two, inverse to each other
 };
 
-[[gnu::always_inline]] inline Seen seen_from(const Point& a, const Point& p, const Point& e) {
+[[gnu::always_inline]] inline Seen<double> seen_from(const Point& a, const Point& p, const Point& e) {
   const double ae_yz = a.y * e.z, ae_zy = a.z * e.y, ae_zx = a.z * e.x, ae_xz = a.x * e.z, ae_xy = a.x * e.y,
                ae_yx = a.y * e.x;
   const double my = std::fabs(a.y) + std::fabs(p.y), mz = std::fabs(a.z) + std::fabs(p.z);
-  Seen s;
+  Seen<double> s;
   const double x = ae_yz - ae_zy;
   s.y = ae_zx - ae_xz;
   s.z = ae_xy - ae_yx;
@@ -139,30 +142,42 @@ struct Seen {
   return s;
 }
 
+template <class T>
 struct Estimate {
-  double value, magnitude;
+  T value;
+  double magnitude;
 };
 
-Estimate area(const Seen& p, const Seen& q) { return {p.y * q.z - p.z * q.y, p.py * q.pz + p.pz * q.py}; }
-
-int certain_sign(double value, double bound) { return (value > bound) - (value < -bound); }
-
-int filter_left(const Seen& b, const Seen& c) {
-  const Estimate d = area(b, c);
-  return certain_sign(d.value, kFactor * d.magnitude + kNegligible);
+/// D, and the sum of the absolute values of its terms.
+template <class T>
+[[gnu::always_inline]] inline Estimate<T> area(const Seen<T>& p, const Seen<T>& q) {
+  return {p.y * q.z - p.z * q.y, p.py * q.pz + p.pz * q.py};
 }
 
-int filter_height(const Seen& b, const Seen& c, const Seen& d) {
-  const Estimate cd = area(c, d), bd = area(b, d), bc = area(b, c);
-  double tb = cd.value * b.g, tc = bd.value * c.g, td = bc.value * d.g;
+int certain_sign(double value, double bound) { return (value > bound) - (value < -bound); }
+int certain_sign(const DoubleDouble& value, double bound) { return certain_sign(value.high, bound); }
+double scaled_by(double x, double scale) { return x * scale; }
+
+/// The sign of (*), for the apex on its positive side; 0 if it is not certain. factor: the bound of the error
+/// relative to the sum of the magnitudes.
+template <class T>
+[[gnu::always_inline]] inline int height(const Seen<T>& b, const Seen<T>& c, const Seen<T>& d,
+                                         double factor) {
+  const Estimate<T> cd = area(c, d), bd = area(b, d), bc = area(b, c);
+  T tb = cd.value * b.g, tc = bd.value * c.g, td = bc.value * d.g;
   double mb = cd.magnitude * b.q, mc = bd.magnitude * c.q, md = bc.magnitude * d.q;
   if (b.weight != 1 || c.weight != 1 || d.weight != 1) {
     const double most = std::min({b.by, c.by, d.by});
     const double wb = b.weight * most, wc = c.weight * most, wd = d.weight * most;
-    tb *= wb, tc *= wc, td *= wd;
+    tb = scaled_by(tb, wb), tc = scaled_by(tc, wc), td = scaled_by(td, wd);
     mb *= wb, mc *= wc, md *= wd;
   }
-  return certain_sign((tc - tb) - td, kFactor * ((mc + mb) + md) + kNegligible);
+  return certain_sign((tc - tb) - td, factor * ((mb + mc) + md) + kNegligible);
+}
+
+int filter_left(const Seen<double>& b, const Seen<double>& c) {
+  const Estimate<double> d = area(b, c);
+  return certain_sign(d.value, kFactor * d.magnitude + kNegligible);
 }
 
 /// For two nodes c and d close to each other: the step from c to d. With N_d = N_c + N and G_d = G_c + G
@@ -170,22 +185,14 @@ int filter_height(const Seen& b, const Seen& c, const Seen& d) {
 ///
 ///     -D(N_c, N) G_b + D(N_b, N) G_c - D_bc G,
 ///
-/// in which every term is as small as the step. N = a x f and G = -a.f with f = d - c are known as well as
-/// for e above; the error of G is less than 6u of q = |a.x f.x| + ... + 2^-46, and G grows with the length of
-/// a, not with its square: another 4u.
-Seen step(const Point& a, const Point& p, const Point& f) {
-  Seen s = seen_from(a, p, f);
+/// (*) for b, c and the step, in which every term is as small as the step. N = a x f and G = -a.f with f = d
+/// - c are known as well as for e above; the error of G is less than 6u of q = |a.x f.x| + ... + 2^-46, and G
+/// grows with the length of a, not with its square: another 4u. G is not scaled, so `weight` must be 1.
+Seen<double> step(const Point& a, const Point& p, const Point& f) {
+  Seen<double> s = seen_from(a, p, f);
   s.g = -dot(a, f);
   s.q = std::fabs(a.x * f.x) + std::fabs(a.y * f.y) + std::fabs(a.z * f.z) + 0x1p-46;
   return s;
-}
-
-int filter_height_of_pair(const Seen& b, const Seen& c, const Seen& s) {
-  if (b.weight != 1 || c.weight != 1 || s.weight != 1) return 0;
-  const Estimate cs = area(c, s), bs = area(b, s), bc = area(b, c);
-  return certain_sign(
-      (bs.value * c.g - cs.value * b.g) - bc.value * s.g,
-      kFactor * ((bs.magnitude * c.q + cs.magnitude * b.q) + bc.magnitude * s.q) + kNegligible);
 }
 
 /// For vectors p that are (1 + s_p) times a direction, |s_p| < 2^-51, and whose volume v as given is known,
@@ -198,10 +205,10 @@ int filter_height_of_pair(const Seen& b, const Seen& c, const Seen& s) {
 /// the magnitude of its D, 2^-98 by 13u of D times |s_p - s_a| < 2^-50, 2^-100 by the lengths, and 3 * 2^-102
 /// by the terms of second order: the bound has 2^-96. `volume` is a.x v, wrong by at most 2^-51 of itself and
 /// 2^-171.
-int height_by_lengths(double volume, const Seen& b, const Seen& c, const Seen& d, double s_b, double s_c,
-                      double s_d) {
+int height_by_lengths(double volume, const Seen<double>& b, const Seen<double>& c, const Seen<double>& d,
+                      double s_b, double s_c, double s_d) {
   if (b.weight != 1 || c.weight != 1 || d.weight != 1) return 0;
-  const Estimate cd = area(c, d), bd = area(b, d), bc = area(b, c);
+  const Estimate<double> cd = area(c, d), bd = area(b, d), bc = area(b, c);
   return certain_sign(
       volume + ((bd.value * s_c - cd.value * s_b) - bc.value * s_d),
       0x1p-48 * std::fabs(volume) + (0x1p-96 * ((bd.magnitude + cd.magnitude) + bc.magnitude) + 0x1p-168));
@@ -221,29 +228,6 @@ int height_by_lengths(double volume, const Seen& b, const Seen& c, const Seen& d
 // magnitudes of (*), rounded as well.
 constexpr double kFineFactor = 0x1p-76;
 constexpr double kNear = 0x1p-34;  ///< |e|^2 below which a node is near
-
-// "Loose" sums and products do not renormalise: the low part may exceed half a unit in the last place of
-// the high part. They are faster, and their error of a few u^2 of the absolute values suffices here. A
-// factor that is a difference with cancellation must be renormalised first.
-
-[[gnu::always_inline]] inline DoubleDouble loose_sum(const DoubleDouble& x, const DoubleDouble& y) {
-  const DoubleDouble s = two_sum(x.high, y.high);
-  return {s.high, s.low + (x.low + y.low)};
-}
-
-/// A double-double whose high part is already split for products.
-struct Factor {
-  Halves high;
-  double low;
-  Factor() = default;
-  explicit Factor(const DoubleDouble& x) : high(x.high), low(x.low) {}
-  double value() const { return high.value; }
-};
-
-[[gnu::always_inline]] inline DoubleDouble loose_product(const Factor& x, const Factor& y) {
-  const DoubleDouble p = two_product(x.high, y.high);
-  return {p.high, p.low + (x.high.value * y.low + x.low * y.high.value)};
-}
 
 /// A vector as given, scaled by a power of two, its axes permuted.
 struct FinePoint {
@@ -287,96 +271,43 @@ struct FineCross {
   }
 };
 
-/// Seen, in double-double.
-struct FineSeen {
-  Factor y, z, g;
-  double py, pz, q;
-  double weight, by;
-};
-
 /// The apex, axes permuted.
 struct FineApex {
-  Factor x, y, z;  ///< of the direction
+  FineApex(const Axes& axes, const UnitVector& unit, const Point& given)
+      : high(axes(unit.high)), low(axes(unit.low)), given(given, axes) {}
+  Point high, low;  ///< of the direction
   FinePoint given;
 };
 
-FineApex fine_apex(const Axes& axes, const UnitVector& unit, const Point& given) {
-  const Point h = axes(unit.high), l = axes(unit.low);
-  return {Factor({h.x, l.x}), Factor({h.y, l.y}), Factor({h.z, l.z}), FinePoint(given, axes)};
-}
-
-void see(const FineApex& a, const UnitVector& unit, const Axes& axes, const Point& p, FineSeen& seen) {
+Seen<DoubleDouble> seen_finely_from(const FineApex& a, const UnitVector& unit, const Axes& axes,
+                                    const Point& p) {
   const Point high = axes(unit.high), low = axes(unit.low);
-  // The high parts may cancel. The difference is renormalised, because loose_product() omits the product of
-  // the low parts.
-  const auto difference = [](double p_high, double p_low, const Factor& apex) {
-    const DoubleDouble d = two_sum(p_high, -apex.value());
-    return Factor(two_sum(d.high, d.low + (p_low - apex.low)));
-  };
-  const Factor x = difference(high.x, low.x, a.x), y = difference(high.y, low.y, a.y),
-               z = difference(high.z, low.z, a.z);
-  const double square = dot(Point{x.value(), y.value(), z.value()}, {x.value(), y.value(), z.value()});
-  if (square >= kNear) {
-    const auto component = [](const Factor& a, const Factor& b, const Factor& c, const Factor& d) {
-      const DoubleDouble p = loose_product(a, b), q = loose_product(c, d);
-      return loose_sum(p, {-q.high, -q.low});
-    };
-    seen.y = Factor(component(a.z, x, a.x, z));
-    seen.z = Factor(component(a.x, y, a.y, x));
-    seen.py = std::fabs(a.z.value() * x.value()) + std::fabs(a.x.value() * z.value()) +
-              (0x1p-17 * (std::fabs(a.z.value()) + std::fabs(high.z)) + 0x1p-700);
-    seen.pz = std::fabs(a.x.value() * y.value()) + std::fabs(a.y.value() * x.value()) +
-              (0x1p-17 * (std::fabs(a.y.value()) + std::fabs(high.y)) + 0x1p-700);
-    const DoubleDouble g =
-        loose_sum(loose_sum(loose_product(x, x), loose_product(y, y)), loose_product(z, z));
-    seen.g = Factor({0.5 * g.high, 0.5 * g.low});
-    seen.q = square;
-    seen.weight = seen.by = 1;
-    return;
+  const DoubleDouble ax{a.high.x, a.low.x}, ay{a.high.y, a.low.y}, az{a.high.z, a.low.z};
+  const DoubleDouble x = DoubleDouble{high.x, low.x} - ax, y = DoubleDouble{high.y, low.y} - ay,
+                     z = DoubleDouble{high.z, low.z} - az;
+  const Point e{x.high, y.high, z.high};
+  if (const double square = dot(e, e); square >= kNear) {
+    const double py = std::fabs(az.high * x.high) + std::fabs(ax.high * z.high) +
+                      (0x1p-17 * (std::fabs(az.high) + std::fabs(high.z)) + 0x1p-700);
+    const double pz = std::fabs(ax.high * y.high) + std::fabs(ay.high * x.high) +
+                      (0x1p-17 * (std::fabs(ay.high) + std::fabs(high.y)) + 0x1p-700);
+    return {az * x - ax * z, ax * y - ay * x, py, pz, scaled_by(x * x + y * y + z * z, 0.5), square};
   }
   const FinePoint given(p, axes);
   const FineCross n(a.given, given);
-  seen.y = Factor(n.y.value), seen.z = Factor(n.z.value);
-  seen.py = n.y.magnitude, seen.pz = n.z.magnitude;
-  seen.weight = n.weight, seen.by = n.by;
-  const Factor nx(n.x.value);
-  const DoubleDouble c = loose_sum(loose_sum(loose_product(nx, nx), loose_product(seen.y, seen.y)),
-                                   loose_product(seen.z, seen.z));
-  DoubleDouble s = loose_sum(loose_sum(two_product(a.given.x, given.x), two_product(a.given.y, given.y)),
-                             two_product(a.given.z, given.z));
-  s = {2 * s.high, 2 * s.low};
-  const double inverse = 1 / s.high, rest = c.high * n.weight * n.weight * inverse;
-  s = loose_sum(s, {rest - rest * rest * inverse, 0});
-  const double g = c.high / s.high;
-  const DoubleDouble back = two_product(g, s.high);
-  seen.g = Factor({g, (((c.high - back.high) - back.low) + (c.low - g * s.low)) * inverse});
-  seen.q = (n.x.magnitude * n.x.magnitude + n.y.magnitude * n.y.magnitude + n.z.magnitude * n.z.magnitude) *
-           inverse;
-}
-
-struct FineEstimate {
-  Factor value;
-  double magnitude;
-};
-
-[[gnu::always_inline]] inline FineEstimate area(const FineSeen& p, const FineSeen& q) {
-  const DoubleDouble s = loose_product(p.y, q.z), t = loose_product(p.z, q.y);
-  return {Factor(loose_sum(s, {-t.high, -t.low})), p.py * q.pz + p.pz * q.py};
-}
-
-int fine_height(const FineSeen& b, const FineSeen& c, const FineSeen& d) {
-  const FineEstimate cd = area(c, d), bd = area(b, d), bc = area(b, c);
-  DoubleDouble tb = loose_product(cd.value, b.g), tc = loose_product(bd.value, c.g),
-               td = loose_product(bc.value, d.g);
-  double mb = cd.magnitude * b.q, mc = bd.magnitude * c.q, md = bc.magnitude * d.q;
-  if (b.weight != 1 || c.weight != 1 || d.weight != 1) {
-    const double most = std::min({b.by, c.by, d.by});
-    const double wb = b.weight * most, wc = c.weight * most, wd = d.weight * most;
-    tb = scaled_by(tb, wb), tc = scaled_by(tc, wc), td = scaled_by(td, wd);
-    mb *= wb, mc *= wc, md *= wd;
-  }
-  const DoubleDouble value = loose_sum(loose_sum(tc, {-tb.high, -tb.low}), {-td.high, -td.low});
-  return certain_sign(value.high + value.low, kFineFactor * ((mb + mc) + md) + kNegligible);
+  const DoubleDouble square = n.x.value * n.x.value + n.y.value * n.y.value + n.z.value * n.z.value;
+  const DoubleDouble two_x = scaled_by(
+      two_product(a.given.x, given.x) + two_product(a.given.y, given.y) + two_product(a.given.z, given.z), 2);
+  const double inverse = 1 / two_x.high, rest = square.high * n.weight * n.weight * inverse;
+  return {n.y.value,
+          n.z.value,
+          n.y.magnitude,
+          n.z.magnitude,
+          square / (two_x + DoubleDouble{rest - rest * rest * inverse, 0}),
+          (n.x.magnitude * n.x.magnitude + n.y.magnitude * n.y.magnitude + n.z.magnitude * n.z.magnitude) *
+              inverse,
+          n.weight,
+          n.by};
 }
 
 // ---- in integers --------------------------------------------------------------------------------------
@@ -441,8 +372,7 @@ bool is_nearer(const Point& p, const Point& a, const Point& b) {
     using Int = decltype(zero);
     const auto vector = [](const Point& v) { return exact::scaled<Int>(v, exact::span_of(v).low); };
     const auto c = vector(p), d = vector(a), e = vector(b);
-    return exact::sign_of_sum(Int(exact::dot(d, c)), Int(exact::dot(e, e)), Int(-exact::dot(e, c)),
-                              Int(exact::dot(d, d))) > 0;
+    return exact::sign_of_sum(Int(dot(d, c)), Int(dot(e, e)), Int(-dot(e, c)), Int(dot(d, d))) > 0;
   };
   const int bits = std::max({exact::span_of(p).bits(), exact::span_of(a).bits(), exact::span_of(b).bits()});
   return bits <= 4 * exact::kRootBits ? exactly(exact::RootInteger()) : exactly(exact::Integer());
@@ -580,33 +510,31 @@ int Directions::left(index_t ia, index_t ib, index_t ic) const {
 
 int Directions::orientation(index_t a, index_t b, index_t c, index_t d) const {
   if (const int s = filter_seen_from_first({a, b, c, d})) return s;
-  bool first_will_do;
-  const Four best = best_first({a, b, c, d}, first_will_do);
-  if (!first_will_do)
-    if (const int s = filter_seen_from_first(best)) return s;
-  return height_seen_from_first(best);
+  return uncertain_orientation({a, b, c, d});
 }
 
 int Directions::filter_seen_from_first(const Four& f) const {
   const Axes axes(position(f[0]));
   const Point apex = axes(position(f[0]));
   const auto seen = [&](index_t i) { return seen_from(apex, axes(position(i)), axes(difference(i, f[0]))); };
-  const int s = filter_height(seen(f[1]), seen(f[2]), seen(f[3]));
+  const int s = height(seen(f[1]), seen(f[2]), seen(f[3]), kFactor);
   return axes.negative ? -s : s;
 }
 
-int Directions::height_seen_from_first(const Four& f) const {
+int Directions::uncertain_orientation(const Four& f) const {
+  bool first_will_do;
+  const Four best = best_first(f, first_will_do);
+  if (!first_will_do)
+    if (const int s = filter_seen_from_first(best)) return s;
+  const Point &a = p_[best[0]], &b = p_[best[1]], &c = p_[best[2]], &d = p_[best[3]];
   ++stages.double_double;
-  const Axes axes(position(f[0]));
-  const FineApex apex = fine_apex(axes, unit(f[0]), p_[f[0]]);
-  FineSeen seen[3];
-  for (std::size_t k = 0; k < 3; ++k) {
-    const index_t i = f[k + 1];
-    see(apex, unit(i), axes, p_[i], seen[k]);
-  }
-  if (const int s = fine_height(seen[0], seen[1], seen[2])) return axes.negative ? -s : s;
-  if (on_great_circle(p_[f[0]], p_[f[1]], p_[f[2]], p_[f[3]])) return 0;
-  return exact_height_of_directions(p_[f[0]], p_[f[1]], p_[f[2]], p_[f[3]]);
+  const Axes axes(position(best[0]));
+  const FineApex apex(axes, unit(best[0]), a);
+  const auto seen = [&](index_t i) { return seen_finely_from(apex, unit(i), axes, p_[i]); };
+  if (const int s = height(seen(best[1]), seen(best[2]), seen(best[3]), kFineFactor))
+    return axes.negative ? -s : s;
+  if (on_great_circle(a, b, c, d)) return 0;
+  return exact_height_of_directions(a, b, c, d);
 }
 
 Directions::Four Directions::best_first(const Four& f, bool& first_will_do) const {
@@ -624,14 +552,16 @@ Directions::Four Directions::best_first(const Four& f, bool& first_will_do) cons
   return even[least];
 }
 
-bool Directions::above(index_t ia, index_t ib, index_t ic, index_t id) const {
+bool Directions::above(index_t a, index_t b, index_t c, index_t d) const {
   ++stages.above;
-  if (const int s = orientation(ia, ib, ic, id)) return s > 0;
-  const Point &a = p_[ia], &b = p_[ib], &c = p_[ic], &d = p_[id];
-  if (same_direction(a, b) || same_direction(b, c) || same_direction(c, a) || same_direction(a, d) ||
-      same_direction(b, d) || same_direction(c, d))
-    return false;
-  return symbolic_above(a, b, c, d);
+  const int s = orientation(a, b, c, d);
+  return s > 0 || (s == 0 && above_by_tie_rule({a, b, c, d}));
+}
+
+bool Directions::above_by_tie_rule(const Four& f) const {
+  const Point &a = p_[f[0]], &b = p_[f[1]], &c = p_[f[2]], &d = p_[f[3]];
+  return !same_direction(a, b) && !same_direction(b, c) && !same_direction(c, a) && !same_direction(a, d) &&
+         !same_direction(b, d) && !same_direction(c, d) && symbolic_above(a, b, c, d);
 }
 
 // ---- the view from one node -----------------------------------------------------------------------------
@@ -639,13 +569,14 @@ bool Directions::above(index_t ia, index_t ib, index_t ic, index_t id) const {
 struct Directions::View::Memory {
   explicit Memory(const Directions& directions) : nodes(directions) {}
 
-  [[gnu::always_inline]] const Seen& see(index_t i) {
-    return seen(i,
-                [&](Seen& s) { s = seen_from(apex, axes(nodes.position(i)), axes(nodes.difference(i, v))); });
+  const Seen<double>& see(index_t i) {
+    return seen(i, [&](Seen<double>& s) {
+      s = seen_from(apex, axes(nodes.position(i)), axes(nodes.difference(i, v)));
+    });
   }
   /// For unit vectors up to rounding whose coordinates are multiples of 2^-61, as those of most nodes on
   /// parallels are. 0: not certain.
-  int height_on_grid(const index_t (&node)[3], const Seen* const (&of)[3]) const {
+  int height_on_grid(const index_t (&node)[3], const Seen<double> (&of)[3]) const {
     exact::Grid at_v, at[3];
     double s[3];
     if (!exact::on_grid(nodes.position(v), at_v)) return 0;
@@ -653,24 +584,29 @@ struct Directions::View::Memory {
       if (!exact::on_grid(nodes.position(node[k]), at[k])) return 0;
       s[k] = nodes.unit_[node[k]].shrink - nodes.unit_[v].shrink;  // NaN, and not certain, for other lengths
     }
-    const double volume = 0x1p-183 * exact::det(at[0] - at_v, at[1] - at_v, at[2] - at_v).value();
-    return height_by_lengths(apex.x * volume, *of[0], *of[1], *of[2], s[0], s[1], s[2]);
+    const double volume =
+        0x1p-183 * exact::det(minus(at[0], at_v), minus(at[1], at_v), minus(at[2], at_v)).value();
+    return height_by_lengths(apex.x * volume, of[0], of[1], of[2], s[0], s[1], s[2]);
   }
-  const FineSeen& see_finely(index_t i) {
-    if (!is_fine) fine_apex = pstripack::fine_apex(axes, nodes.unit(v), nodes.given(v));
-    is_fine = true;
-    return fine_seen(i,
-                     [&](FineSeen& s) { pstripack::see(fine_apex, nodes.unit(i), axes, nodes.given(i), s); });
+  /// For two of the nodes that are close to each other and far from v. 0: not certain, or there are none.
+  int height_of_pair(const index_t (&node)[3], const Seen<double> (&of)[3]) const {
+    std::size_t pair = 0;
+    double least = 4;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point f = nodes.difference(node[(k + 1) % 3], node[k]);
+      if (const double square = dot(f, f); square < least) pair = k, least = square;
+    }
+    if (!(least < 0x1p-10 * of[pair].q)) return 0;
+    const index_t from = node[pair], to = node[(pair + 1) % 3];
+    const Seen<double> s = step(apex, axes(nodes.position(from)), axes(nodes.difference(to, from)));
+    return s.weight == 1 ? height(of[(pair + 2) % 3], of[pair], s, kFactor) : 0;
   }
 
   const Directions& nodes;
   index_t v = 0;
   Axes axes{{1, 0, 0}};
   Point apex{};
-  FineApex fine_apex;
-  bool is_fine = false;  ///< fine_apex is that of v
-  Remembered<Seen> seen;
-  Remembered<FineSeen> fine_seen;
+  Remembered<Seen<double>> seen;
 };
 
 Directions::View::View(const Directions& nodes) : nodes_(nodes), memory_(std::make_unique<Memory>(nodes)) {}
@@ -683,9 +619,7 @@ Directions::View::Memory& Directions::View::memory() {
   m.v = v_;
   m.axes = Axes(nodes_.position(v_));
   m.apex = m.axes(nodes_.position(v_));
-  m.is_fine = false;
   m.seen.forget();
-  m.fine_seen.forget();
   return m;
 }
 
@@ -693,60 +627,16 @@ bool Directions::View::above(index_t a, index_t b, index_t c) {
   Memory& m = memory();
   tied_ = false;
   ++stages.above;
-  const auto signed_for_axes = [&](int s) { return m.axes.negative ? -s : s; };
   // c, b, a seen from v: an even permutation of a, b, c, v.
   const index_t node[3] = {c, b, a};
-  const Seen* seen[3];
-  Seen copy[2];  // copies, for nodes that share a slot of the cache
-  seen[0] = &m.see(c);
-  if (m.seen.share_slot(c, b) || m.seen.share_slot(c, a)) seen[0] = &(copy[0] = *seen[0]);
-  seen[1] = &m.see(b);
-  if (m.seen.share_slot(b, a)) seen[1] = &(copy[1] = *seen[1]);
-  seen[2] = &m.see(a);
-  if (const int s = signed_for_axes(filter_height(*seen[0], *seen[1], *seen[2]))) return s > 0;
-  if (const int s = signed_for_axes(m.height_on_grid(node, seen))) return s > 0;
-  // Two of the nodes may be close to each other and far from v.
-  std::size_t pair = 0;
-  double least = 4;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Point f = nodes_.difference(node[(k + 1) % 3], node[k]);
-    if (const double square = dot(f, f); square < least) pair = k, least = square;
-  }
-  if (const Seen& first = *seen[pair]; least < 0x1p-10 * first.q) {
-    const index_t from = node[pair], to = node[(pair + 1) % 3];
-    const Seen s = step(m.apex, m.axes(nodes_.position(from)), m.axes(nodes_.difference(to, from)));
-    if (const int sign = signed_for_axes(filter_height_of_pair(*seen[(pair + 2) % 3], first, s)))
-      return sign > 0;
-  }
-  bool v_will_do;
-  const Four best = nodes_.best_first({m.v, c, b, a}, v_will_do);
-  if (!v_will_do)
-    if (const int s = nodes_.filter_seen_from_first(best)) return s > 0;
-  const Point &pa = nodes_.given(a), &pb = nodes_.given(b), &pc = nodes_.given(c), &pv = nodes_.given(m.v);
-  const bool maybe_in_line = filter_left(*seen[0], *seen[1]) == 0 && filter_left(*seen[1], *seen[2]) == 0 &&
-                             filter_left(*seen[2], *seen[0]) == 0;
-  if (maybe_in_line && on_great_circle(pa, pb, pc, pv)) {
-    tied_ = true;
-    return false;
-  }
-  if (v_will_do) {
-    ++stages.double_double;
-    const FineSeen fc = m.see_finely(c), fb = m.see_finely(b);
-    if (const int s = signed_for_axes(fine_height(fc, fb, m.see_finely(a)))) return s > 0;
-  }
-  if (const int s = nodes_.height_seen_from_first(best)) return s > 0;
-  tied_ = true;
-  return !same_direction(pa, pv) && !same_direction(pb, pv) && !same_direction(pc, pv) &&
-         symbolic_above(pa, pb, pc, pv);
-}
-
-int Directions::View::left(index_t a, index_t b) {
-  Memory& m = memory();
-  ++stages.left;
-  const Seen seen = m.see(a);
-  if (const int s = filter_left(seen, m.see(b))) return m.axes.negative ? -s : s;
-  if (in_coordinate_plane(nodes_.given(a), nodes_.given(b), nodes_.given(m.v))) return 0;
-  return left_of_vectors(nodes_.given(a), nodes_.given(b), nodes_.given(m.v));
+  const Seen<double> seen[3] = {m.see(c), m.see(b), m.see(a)};
+  int s = height(seen[0], seen[1], seen[2], kFactor);
+  if (s == 0) s = m.height_on_grid(node, seen);
+  if (s == 0) s = m.height_of_pair(node, seen);
+  if (s != 0) return (s > 0) != m.axes.negative;
+  s = nodes_.uncertain_orientation({m.v, c, b, a});
+  tied_ = s == 0;
+  return s > 0 || (s == 0 && nodes_.above_by_tie_rule({a, b, c, m.v}));
 }
 
 }  // namespace pstripack

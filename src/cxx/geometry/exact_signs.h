@@ -72,40 +72,18 @@ Int scaled(double v, int low) {
 }
 
 template <class Int>
-struct IntegerVector {
-  Int x, y, z;
-};
-
-template <class Int>
-IntegerVector<Int> scaled(const Point& p, int low) {
+Vector3<Int> scaled(const Point& p, int low) {
   return {scaled<Int>(p.x, low), scaled<Int>(p.y, low), scaled<Int>(p.z, low)};
 }
 
 template <class Int>
-IntegerVector<Int> operator-(const IntegerVector<Int>& a, const IntegerVector<Int>& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
-template <class Int>
-IntegerVector<Int> cross(const IntegerVector<Int>& a, const IntegerVector<Int>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-template <class Int>
-Int dot(const IntegerVector<Int>& a, const IntegerVector<Int>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-template <class Int>
-Int det(const IntegerVector<Int>& a, const IntegerVector<Int>& b, const IntegerVector<Int>& c) {
+Int det(const Vector3<Int>& a, const Vector3<Int>& b, const Vector3<Int>& c) {
   return dot(cross(a, b), c);
 }
 
 // ---- the grid of multiples of 2^-61 --------------------------------------------------------------
 
-struct Grid {
-  std::int64_t x, y, z;
-};
+using Grid = Vector3<std::int64_t>;
 
 /// g = p * 2^61 if that is a vector of integers below 2^61 (1 + 2^-10) in magnitude.
 inline bool on_grid(const Point& p, Grid& g) {
@@ -117,8 +95,6 @@ inline bool on_grid(const Point& p, Grid& g) {
   };
   return component(p.x, g.x) && component(p.y, g.y) && component(p.z, g.z);
 }
-
-inline Grid operator-(const Grid& a, const Grid& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 
 /// high * 2^64 + low
 struct WideInteger {
@@ -160,7 +136,8 @@ int left(const Point& a, const Point& b, const Point& c) {
 template <class Int>
 int orientation(const Point& a, const Point& b, const Point& c, const Point& d, int low) {
   const auto base = scaled<Int>(a, low);
-  return sign(det(scaled<Int>(b, low) - base, scaled<Int>(c, low) - base, scaled<Int>(d, low) - base));
+  return sign(det(minus(scaled<Int>(b, low), base), minus(scaled<Int>(c, low), base),
+                  minus(scaled<Int>(d, low), base)));
 }
 
 // Signs of sums of square roots, in integers alone. A sum is split into two halves. If their signs are

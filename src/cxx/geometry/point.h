@@ -4,18 +4,30 @@
 
 namespace pstripack {
 
+/// A vector of numbers of the kind T. The order of evaluation of the functions below decides bits of results.
+template <class T>
+struct Vector3 {
+  T x, y, z;
+};
+
 /// A node as the caller gave it: the vector from the centre of the sphere. Its length is 1 up to rounding
 /// unless the predicates on directions are used.
-struct Point {
-  double x, y, z;
-};
+using Point = Vector3<double>;
 
 inline bool operator==(const Point& a, const Point& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 inline bool operator!=(const Point& a, const Point& b) { return !(a == b); }
 
-inline Point minus(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Point cross(const Point& a, const Point& b) {
+template <class T>
+Vector3<T> minus(const Vector3<T>& a, const Vector3<T>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class T>
+T dot(const Vector3<T>& a, const Vector3<T>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+/// a x b; every component is a difference of two products.
+template <class T>
+Vector3<T> cross(const Vector3<T>& a, const Vector3<T>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 

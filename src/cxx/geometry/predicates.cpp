@@ -163,7 +163,7 @@ int orientation(const Point& a, const Point& b, const Point& c, const Point& d) 
   using namespace exact;
   if (Grid p, q, r, s; on_grid(a, p) && on_grid(b, q) && on_grid(c, r) && on_grid(d, s)) {
     ++stages.integers;
-    return sign_of_det(q - p, r - p, s - p);
+    return sign_of_det(minus(q, p), minus(r, p), minus(s, p));
   }
   if (all_moderate)
     if (const int s = fine_orientation(a, b, c, d)) return s;
@@ -178,11 +178,10 @@ bool same_direction(const Point& a, const Point& b) {
   // Equal products are rounded to equal doubles, even if they overflow or underflow.
   if (a.x * b.y != a.y * b.x || a.y * b.z != a.z * b.y || a.z * b.x != a.x * b.z) return false;
   using namespace exact;
-  const auto n = exact::cross(scaled<Integer>(a, span_of(a).low), scaled<Integer>(b, span_of(b).low));
+  const auto n = cross(scaled<Integer>(a, span_of(a).low), scaled<Integer>(b, span_of(b).low));
   return n.x == 0 && n.y == 0 && n.z == 0;  // equal signs: not opposite
 }
 
-const PredicateCounts& predicate_counts() { return stages; }
 PredicateCounts take_predicate_counts() { return std::exchange(stages, {}); }
 
 int Coordinates::left(index_t a, index_t b, index_t c) const { return pstripack::left(p_[a], p_[b], p_[c]); }
@@ -202,16 +201,13 @@ bool Coordinates::above(index_t ia, index_t ib, index_t ic, index_t id) const {
 void Coordinates::View::look() {
   is_ready_ = true;
   seen_.forget();
-  exact::Grid g{};
-  viewpoint_.on_grid = exact::on_grid(nodes_.p_[v_], g);
-  viewpoint_.x = g.x, viewpoint_.y = g.y, viewpoint_.z = g.z;
+  viewpoint_.on_grid = exact::on_grid(nodes_.p_[v_], viewpoint_.vector);
 }
 
 const Coordinates::View::Difference& Coordinates::View::see(index_t i) {
   return seen_(i, [&](Difference& d) {
-    exact::Grid g{};
-    d.on_grid = viewpoint_.on_grid && exact::on_grid(nodes_.p_[i], g);
-    d.x = g.x - viewpoint_.x, d.y = g.y - viewpoint_.y, d.z = g.z - viewpoint_.z;
+    d.on_grid = viewpoint_.on_grid && exact::on_grid(nodes_.p_[i], d.vector);
+    if (d.on_grid) d.vector = minus(d.vector, viewpoint_.vector);
   });
 }
 
@@ -247,7 +243,7 @@ bool Coordinates::View::above(index_t ia, index_t ib, index_t ic) {
     const Difference e = see(ic), f = see(ib), g = see(ia);
     if (!(e.on_grid && f.on_grid && g.on_grid)) return nodes_.above(ia, ib, ic, v_);
     ++stages.integers;
-    if (const int s = exact::sign_of_det({e.x, e.y, e.z}, {f.x, f.y, f.z}, {g.x, g.y, g.z})) {
+    if (const int s = exact::sign_of_det(e.vector, f.vector, g.vector)) {
       ++stages.above;
       return s > 0;
     }

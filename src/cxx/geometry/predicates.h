@@ -178,9 +178,12 @@ class Directions {
 
  private:
   using Four = std::array<index_t, 4>;
-  /// `orientation` with f[0] as the apex: in doubles (0: not certain), and by the later stages (exact).
+  /// `orientation` with f[0] as the apex, in doubles; 0: not certain.
   int filter_seen_from_first(const Four& f) const;
-  int height_seen_from_first(const Four& f) const;
+  /// `orientation` where that is 0: by the best apex, then by the later stages.
+  int uncertain_orientation(const Four& f) const;
+  /// `above` where `orientation` is 0.
+  bool above_by_tie_rule(const Four& f) const;
   /// An even permutation of f that starts with the apex of smallest error bound. `first_will_do`: f[0] is
   /// about as good.
   Four best_first(const Four& f, bool& first_will_do) const;
@@ -212,8 +215,6 @@ template <class Item>
 class Remembered {
  public:
   void forget() { ++time_; }
-  /// True if only one of the two can be in the cache.
-  static bool share_slot(index_t i, index_t j) { return slot(i) == slot(j); }
   /// The entry of node i; `make` computes it if it is not in the cache.
   template <class Make>
   Item& operator()(index_t i, const Make& make) {
@@ -248,7 +249,7 @@ class Coordinates::View {
  private:
   /// Difference from v to the node; in multiples of 2^-61 if both are such multiples.
   struct Difference {
-    std::int64_t x, y, z;
+    Vector3<std::int64_t> vector;
     bool on_grid;
   };
   void look();  ///< prepares v, when first needed: few insertions do
@@ -266,7 +267,7 @@ class Directions::View {
   ~View();
   void from(index_t v) { v_ = v, is_ready_ = false; }
   bool above(index_t a, index_t b, index_t c);  ///< Directions::above(a, b, c, v); no two of a, b, c coincide
-  int left(index_t a, index_t b);               ///< Directions::left(a, b, v)
+  int left(index_t a, index_t b) { return nodes_.left(a, b, v_); }
   /// True if v lay in the plane in the last call of `above`, which the tie rule decided.
   bool tied() const { return tied_; }
 
@@ -279,9 +280,7 @@ class Directions::View {
   std::unique_ptr<Memory> memory_;
 };
 
-/// Counts in this thread since the last call of take_predicate_counts().
-const PredicateCounts& predicate_counts();
-/// The same; the next ones begin at 0. For tests and measurements.
+/// Counts in this thread since the last call. For tests and measurements.
 PredicateCounts take_predicate_counts();
 
 }  // namespace pstripack

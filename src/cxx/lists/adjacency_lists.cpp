@@ -1,7 +1,6 @@
 #include "lists/adjacency_lists.h"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <optional>
 #include <string>
@@ -9,16 +8,28 @@
 #include <vector>
 
 #include "base/parallel_for.h"
+#include "lists/list_pieces.h"
 #include "mesh/ring_table.h"
 
 namespace pstripack {
 namespace {
 
-/// Writes LPTR for `count` slots from `slot` (counted from 0) on: each points to the next.
+/// The rings of nodes 0..count-1: that of node i is stored at rings + place[i].
 template <class Int>
-inline void number_on(Int* lptr, std::size_t count, std::size_t slot) {
-  for (std::size_t j = 0; j < count; ++j) lptr[j] = static_cast<Int>(slot + j) + 2;
-}
+struct StoredRings {
+  const Int* rings;
+  const std::uint32_t* place;
+  std::size_t count;
+
+  std::size_t size() const { return count; }
+  Ring<Int> operator[](std::size_t i) const { return ring_at(rings + place[i]); }
+  [[gnu::always_inline]] void prefetch(std::size_t i) const { __builtin_prefetch(rings + place[i]); }
+  std::size_t arcs(std::size_t first, std::size_t last) const {
+    std::size_t sum = 0;
+    for (std::size_t i = first; i < last; ++i) sum += static_cast<std::size_t>(rings[place[i]]);
+    return sum;
+  }
+};
 
 }  // namespace
 
@@ -50,9 +61,8 @@ Int write_lists(const Hull& hull, Int* list, Int* lptr, Int* lend, Workspace& wo
   }
 
   const Numbers<std::uint32_t, 1> number{hull.order};
-  // First pass, in the order of the hull, where the faces of a star are close together in memory: store all
+  // In the order of the hull, where the faces of a star are close together in memory: store all
   // rings.
-  constexpr std::size_t kAhead = 16;
   parallel_pieces(pieces, threads, [&](std::size_t piece, std::size_t, int) {
     const std::size_t last = std::min(n, piece_size * (piece + 1));
     append_rings(
@@ -63,35 +73,11 @@ Int write_lists(const Hull& hull, Int* list, Int* lptr, Int* lend, Workspace& wo
         });
   });
 
-  // Second pass, in the order of the caller's nodes, so that the lists are written from front to back: copy
-  // the rings.
-  std::fill(begin_of.begin(), begin_of.end(), 0);
-  parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int piece) {
-    std::size_t sum = 0;
-    for (std::size_t k = first; k < last; ++k) sum += static_cast<std::size_t>(rings[ring_of[k]]);
-    begin_of[static_cast<std::size_t>(piece) + 1] = sum;
-  });
-  for (std::size_t p = 0; p < pieces; ++p) begin_of[p + 1] += begin_of[p];
-  parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int piece) {
-    std::size_t slot = begin_of[static_cast<std::size_t>(piece)];
-    const std::size_t end = begin_of[static_cast<std::size_t>(piece) + 1];
-    for (std::size_t k = first; k < last; ++k) {
-      if (k + kAhead < last) __builtin_prefetch(rings + ring_of[k + kAhead]);
-      const Ring<Int> ring = ring_at<Int>(rings + ring_of[k]);
-      const Int* const from = ring.begin;
-      if (ring.count <= kBlock && slot + kBlock <= end) {
-        copy_block(from, list + slot);
-        number_on(lptr + slot, kBlock, slot);
-      } else {
-        std::copy(from, from + ring.count, list + slot);
-        number_on(lptr + slot, ring.count, slot);
-      }
-      lptr[slot + ring.count - 1] = static_cast<Int>(slot) + 1;
-      slot += ring.count;
-      lend[k] = static_cast<Int>(slot);
-    }
-  });
-  return static_cast<Int>(begin_of[pieces]) + 1;
+  // Then, in the order of the caller's nodes, so that the lists are written from front to back: copy the
+  // rings.
+  write_piece(StoredRings<Int>{rings, ring_of, n}, 0, list, lend, threads);
+  write_lptr(lend, n, 0, lptr, threads);
+  return lend[n - 1] + 1;
 }
 
 namespace {
@@ -149,7 +135,6 @@ class StarPlaces {
     }
     const auto [first, last] = entries_of(s);
     const Entry* const entry = std::lower_bound(first, last, Entry{wanted, 0});
-    // untested: a node above all neighbours of a node that names it: its own neighbours have told before
     return entry != last && entry->first == wanted ? entry->second : end;
   }
 

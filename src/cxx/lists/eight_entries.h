@@ -45,11 +45,6 @@ Greater greater_of_eight(const Int* entry, Int a) {
           bits_of_eight([=](int i) { return neighbour_in(entry[i]) > a; })};
 }
 
-template <class Int>
-unsigned negative_of_eight(const Int* entry) {
-  return bits_of_eight([=](int i) { return entry[i] < 0; });
-}
-
 /// For each byte: the number of its bits that are 1, and their positions in increasing order.
 constexpr auto ones_of_bits = [] {
   std::array<unsigned char, 256> ones{};
@@ -66,16 +61,6 @@ constexpr auto positions_of_bits = [] {
   }
   return positions;
 }();
-/// For each byte and each of its bits that is 1: the number of 1s up to and including it. 0 for other bits.
-constexpr auto ranks_of_bits = [] {
-  std::array<std::array<unsigned char, eight>, 256> ranks{};
-  for (unsigned byte = 0; byte < 256; ++byte) {
-    unsigned char rank = 0;
-    for (unsigned i = 0; i < eight; ++i)
-      if ((byte >> i & 1) != 0) ranks[byte][i] = ++rank;
-  }
-  return ranks;
-}();
 /// The number of 1s among the lowest 16 bits.
 template <class Int>
 Int ones(unsigned bits) {
@@ -89,23 +74,9 @@ template <class Int>
 void put_sums(Int base, const EightBytes& bytes, Int* to) {
   for (std::size_t i = 0; i < eight; ++i) to[i] = base + bytes[i];
 }
-/// to[i] = base + 2 * bytes[i]; 0 where bytes[i] = 0.
-template <class Int>
-void put_twice(Int base, const EightBytes& bytes, Int* to) {
-  for (std::size_t i = 0; i < eight; ++i) to[i] = bytes[i] > 0 ? base + 2 * Int{bytes[i]} : 0;
-}
 
 #if defined(__SSE2__)
 namespace sse2 {
-template <class Of>
-void put_eight(const EightBytes& bytes, const Of& of, void* to) {
-  const __m128i zero = _mm_setzero_si128();
-  const __m128i words =
-      _mm_unpacklo_epi8(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(bytes.data())), zero);
-  _mm_storeu_si128(static_cast<__m128i*>(to), of(_mm_unpacklo_epi16(words, zero)));
-  _mm_storeu_si128(static_cast<__m128i*>(to) + 1, of(_mm_unpackhi_epi16(words, zero)));
-}
-
 inline __m128i four(const std::int32_t* entry) {
   return _mm_loadu_si128(reinterpret_cast<const __m128i*>(entry));
 }
@@ -121,15 +92,12 @@ inline unsigned bits(__m128i a, __m128i b, __m128i c, __m128i d) {
 }  // namespace sse2
 
 inline void put_sums(std::int32_t base, const EightBytes& bytes, std::int32_t* to) {
-  sse2::put_eight(
-      bytes, [b = _mm_set1_epi32(base)](__m128i i) { return _mm_add_epi32(b, i); }, to);
-}
-inline void put_twice(std::uint32_t base, const EightBytes& bytes, std::uint32_t* to) {
-  const __m128i b = _mm_set1_epi32(static_cast<std::int32_t>(base)), zero = _mm_setzero_si128();
-  const auto of = [b, zero](__m128i i) {
-    return _mm_and_si128(_mm_cmpgt_epi32(i, zero), _mm_add_epi32(b, _mm_add_epi32(i, i)));
-  };
-  sse2::put_eight(bytes, of, to);
+  const __m128i from = _mm_set1_epi32(base), zero = _mm_setzero_si128();
+  const __m128i words =
+      _mm_unpacklo_epi8(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(bytes.data())), zero);
+  auto* const two = reinterpret_cast<__m128i*>(to);
+  _mm_storeu_si128(two, _mm_add_epi32(from, _mm_unpacklo_epi16(words, zero)));
+  _mm_storeu_si128(two + 1, _mm_add_epi32(from, _mm_unpackhi_epi16(words, zero)));
 }
 
 inline unsigned equal_of_eight(const std::int32_t* entry, std::int32_t a) {
@@ -147,10 +115,6 @@ inline Greater greater_of_eight(const std::int32_t* entry, std::int32_t a) {
       sse2::bits(_mm_cmpgt_epi32(e, node), _mm_cmpgt_epi32(f, node), _mm_cmpgt_epi32(sse2::absolute(e), node),
                  _mm_cmpgt_epi32(sse2::absolute(f), node));
   return {bits & 255, bits >> 8};
-}
-
-inline unsigned negative_of_eight(const std::int32_t* entry) {
-  return sse2::bits(sse2::four(entry), sse2::four(entry + 4), _mm_setzero_si128(), _mm_setzero_si128());
 }
 #endif
 

@@ -37,11 +37,11 @@ inline void copy_ring(const Int* from, std::size_t count, Entry* to) {
 void write_lptr(const std::int32_t* lend, std::size_t n, std::size_t first_slot, std::int32_t* lptr,
                 int threads);
 
-/// Writes LIST and LEND of the nodes of a table: their rings one after another. list[0] is the slot
-/// first_slot (from 0) of the whole LIST. Writes lend[0..rings.size()-1] and list[0..rings.arcs()-1].
-/// threads: from threads_for.
-template <class Int>
-void write_piece(const RingTable<Int>& rings, std::size_t first_slot, std::int32_t* list, std::int32_t* lend,
+/// Writes LIST and LEND of the nodes of a table, such as RingTable: their rings one after another. list[0] is
+/// the slot first_slot (from 0) of the whole LIST. Writes lend[0..rings.size()-1] and
+/// list[0..rings.arcs()-1]. threads: from threads_for.
+template <class Rings>
+void write_piece(const Rings& rings, std::size_t first_slot, std::int32_t* list, std::int32_t* lend,
                  int threads) {
   constexpr std::size_t kAhead = 16;     // prefetched: rings lie in the order of patches, not of nodes
   std::array<std::size_t, 256> begin{};  // where each thread's part begins
@@ -55,7 +55,7 @@ void write_piece(const RingTable<Int>& rings, std::size_t first_slot, std::int32
     std::size_t slot = begin[static_cast<std::size_t>(piece)];
     for (std::size_t k = first; k < last; ++k) {
       if (k + kAhead < last) rings.prefetch(k + kAhead);
-      const Ring<Int> ring = rings[k];
+      const auto ring = rings[k];
       copy_ring(ring.begin, ring.count, list + slot);
       slot += ring.count;
       lend[k] = static_cast<std::int32_t>(first_slot + slot);

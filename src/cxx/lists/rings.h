@@ -16,7 +16,7 @@ namespace pstripack {
 enum class FirstPair { first_and_second, last_and_first };
 
 /// A hash of t; 0 for 0. Used in sums over triangles that show whether the rings agree: sums of the numbers
-/// themselves could agree by chance. With splitmix64 TRLIST would take a tenth longer.
+/// themselves could agree by chance. splitmix64 would take longer.
 template <class Number>
 std::uint64_t randomised(Number t) {
   const std::uint64_t product = static_cast<std::uint64_t>(t) * 0x9e3779b97f4a7c15u;
@@ -80,55 +80,30 @@ class Rings {
     const unsigned neighbours = greater.neighbours & whole(last);
     return {neighbours, greater.entries & (neighbours >> 1 | (neighbours & 1) << last)};
   }
-  /// The arcs of a small ring, as bits, that have a triangle on the left of which the ring's node is the
-  /// smallest or the largest corner.
-  struct Claims {
-    std::uint16_t smallest, largest;
-  };
-  /// Needs is_small(a).
-  Claims claims_of(Int a) const {
-    const Int* const entries = entry_ + begin(a);
-    const Int last = degree(a) - 1;
-    const Greater greater = greater_of(entries, a, last);
-    const unsigned neighbours = greater.neighbours & whole(last), smaller = neighbours ^ whole(last);
-    const auto followed = [last](unsigned bits) { return bits >> 1 | (bits & 1) << last; };
-    return {static_cast<std::uint16_t>(greater.entries & followed(neighbours)),
-            static_cast<std::uint16_t>(smaller & followed(smaller) & ~negative_of(entries, last))};
-  }
   /// True if there is a triangle left of the arc of a, and a is its smallest corner. Uses entry(arc), which
   /// is negative if there is none.
   bool is_smallest(Int a, Int arc) const { return (entry(arc) > a) & (target(after(a, arc)) > a); }
 
-  bool is_largest(Int a, Int arc) const {
-    return (entry(arc) > 0) & (entry(arc) < a) & (target(after(a, arc)) < a);
-  }
-
   /// Calls visit(a, b, c, p, q) for all triangles (a,b,c), counterclockwise, with smallest corner
-  /// a = first+1..last, in the order of a and of its ring; p and q are the arcs from a to b and to c.
+  /// a = first+1..last, in the order of a and of its ring; p and q are the arcs from a to b and to c. The
+  /// arcs p of several small rings are collected before the first is visited, because a loop over the arcs of
+  /// one ring would end unpredictably.
   template <FirstPair pairs, class Visit>
-  void for_each_triangle(std::size_t first, std::size_t last, const Visit& visit) const {
-    const auto triangle = [&](Int a, Int p, Int q) { visit(a, entry(p), target(q), p, q); };
-    for_each_arc<pairs>(
-        first, last, [this](Int a) { return arcs_of(a).triangles; },
-        [this](Int a, Int p) { return is_smallest(a, p); }, triangle);
-  }
-
-  /// Calls visit(a, p, q) for chosen arcs p of the nodes a = first+1..last, in the order of a and of its
-  /// ring; q is the arc after p. For a small ring the chosen arcs are bits(a), for others those with
-  /// is_chosen(a, p). The arcs of several small rings are collected before the first is visited, because a
-  /// loop over the arcs of one ring would end unpredictably.
-  template <FirstPair pairs, class Bits, class IsChosen, class Visit>
-  [[gnu::always_inline]] void for_each_arc(std::size_t first, std::size_t last, const Bits& bits,
-                                           const IsChosen& is_chosen, const Visit& visit) const {
+  [[gnu::always_inline]] void for_each_triangle(std::size_t first, std::size_t last,
+                                                const Visit& visit) const {
     constexpr Int together = 32;
     constexpr bool last_first = pairs == FirstPair::last_and_first;
     std::array<Int, 2 * eight*(together + 1)> node, arc;
+    const auto visit_arc = [&](Int a, Int p) {
+      const Int q = after(a, p);
+      visit(a, entry(p), target(q), p, q);
+    };
     const auto end_of_all = static_cast<Int>(last);
     for (Int a = static_cast<Int>(first) + 1; a <= end_of_all;) {
       std::size_t found = 0;
       for (const Int stop = std::min(a + together - 1, end_of_all); a <= stop && is_small(a); ++a) {
         const Int ring = begin(a), last_arc = end(a) - 1;
-        unsigned chosen = bits(a);
+        unsigned chosen = arcs_of(a).triangles;
         if (last_first) {
           const unsigned is_last = chosen >> (last_arc - ring) & 1;
           arc[found] = last_arc, node[found] = a;
@@ -143,12 +118,12 @@ class Rings {
           from += eight;
         } while ((chosen >>= eight) != 0);
       }
-      for (std::size_t i = 0; i < found; ++i) visit(node[i], arc[i], after(node[i], arc[i]));
+      for (std::size_t i = 0; i < found; ++i) visit_arc(node[i], arc[i]);
       if (found > 0 || a > end_of_all || is_small(a)) continue;
       Int stop = end(a);
-      if (last_first && is_chosen(a, --stop)) visit(a, stop, begin(a));
+      if (last_first && is_smallest(a, --stop)) visit_arc(a, stop);
       for (Int p = begin(a); p < stop; ++p)
-        if (is_chosen(a, p)) visit(a, p, after(a, p));
+        if (is_smallest(a, p)) visit_arc(a, p);
       ++a;
     }
   }
@@ -167,10 +142,6 @@ class Rings {
     if (last < eight) return first;
     const Greater second = greater_of_eight(entry + eight, a);
     return {first.entries | second.entries << eight, first.neighbours | second.neighbours << eight};
-  }
-  static unsigned negative_of(const Int* entry, Int last) {
-    const unsigned first = negative_of_eight(entry);
-    return last < eight ? first : first | negative_of_eight(entry + eight) << eight;
   }
   static unsigned whole(Int last) { return (2u << last) - 1; }
 

@@ -339,9 +339,7 @@ EdgeStatus edge(Int in1, Int in2, const Nodes<Real>& nodes, Int& lwk, Int* iwk,
       Int nit = 4 * count;
       const OptimStatus optimized = code_or_broken_lists(
           [&] { return optimize(lists, nodes, count, nit, before ? iwk : iwk + 2 * made); });
-      // untested: Differential.EDGE asks for every code, in children that end before they write counts
       if (optimized == OptimStatus::not_all) status = EdgeStatus::not_optimal;
-      // untested: Differential.EDGE asks for every code, in children that end before they write counts
       if (optimized == OptimStatus::done || optimized == OptimStatus::not_all) continue;
       failure = {nit, static_cast<Int>(optimized)};
       return EdgeStatus::optim_failed;

@@ -64,7 +64,8 @@ enum class EdgeStatus {
   optim_failed = 4,  ///< the arc is there; OptimFailure has OPTIM's code
   not_optimal = 5,   ///< the arc is there; OPTIM ran out of iterations
   broken = broken_lists,  ///< only iwk is changed, unless several entries are wrong
-  not_possible = -10  ///< nodes on the arc, up to rounding, or triangles that overlap; only iwk is changed
+  not_possible =
+      PSTRIPACK_NO_EDGE  ///< nodes on the arc, up to rounding, or triangles that overlap; only iwk is changed
 };
 
 /// EDGE: makes in1-in2 an arc by swapping the arcs that it crosses, and then optimises the new arcs beside

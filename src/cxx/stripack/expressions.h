@@ -10,9 +10,7 @@
 namespace pstripack {
 
 template <class Real>
-struct Vector {
-  Real x, y, z;
-};
+using Vector = Vector3<Real>;
 
 /// Coordinates in the caller's three arrays; nodes count from 1.
 template <class Real>
@@ -34,11 +32,6 @@ struct Nodes {
     __builtin_prefetch(z + i);
   }
 };
-
-template <class Real>
-Real dot(const Vector<Real>& a, const Vector<Real>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
 
 /// <c, a x b> in rounded arithmetic: > 0 if c is left of the great circle directed from a to b.
 /// side(b,a,c) == -side(a,b,c) exactly; side(b,c,a) differs from side(a,b,c) by rounding.
@@ -71,12 +64,6 @@ bool coincide(const Vector<Real>& a, const Vector<Real>& b) {
 template <class Real>
 bool is_finite(const Vector<Real>& a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
-}
-
-/// a x b; every component is a difference of two products.
-template <class Real>
-Vector<Real> cross(const Vector<Real>& a, const Vector<Real>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
 /// arccos with its argument clamped to [-1,1]; a NaN stays one.

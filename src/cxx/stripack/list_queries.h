@@ -62,9 +62,6 @@ class ListReader {
     } while (slot != last);
   }
 
-  [[gnu::always_inline]] void prefetch_last_slot(Int node) const {
-    __builtin_prefetch(lists_.lend + (node - 1));
-  }
   [[gnu::always_inline]] void prefetch_list(Int node) const {
     const auto i = static_cast<std::size_t>(last_slot(node) - 1);
     __builtin_prefetch(lists_.list + i);

@@ -86,7 +86,6 @@ void optimize_round(Int k, const CheckedEditor<Int>& lists, const Nodes<Real>& n
       const Int w = lists.neighbour(lists.next(of_u));
       if (swptst(w, k, v, u, nodes)) {
         if (const Int of_w = lists.swap(w, k, v, u)) {
-          // untested: a bound that only broken lists reach; none of the tests' lists does
           if (++exchanges == k) throw BrokenLists();
           v = w;
           slot = of_w;
@@ -214,7 +213,7 @@ class Deletion {
       m = l;
       slot = lists_.next(slot);
     }
-    throw BrokenLists();  // untested: a bound that only broken lists reach; none of the tests' lists does
+    throw BrokenLists();
   }
 
   /// True if the triangles cover the sphere now but not without k: k has more than three neighbours left, or

@@ -10,10 +10,10 @@ namespace pstripack {
 /// IER of ADDNOD; L > 0: node k coincides with node L.
 enum class AddnodStatus {
   done = 0,
-  too_few_nodes = -1,   ///< k < 4
-  collinear = -2,       ///< all nodes lie on one great circle, or node k is the zero vector
-  too_many_nodes = -4,  ///< 6k-12 does not fit an integer
-  not_finite = -5,      ///< a coordinate of node k is NaN or infinite
+  too_few_nodes = PSTRIPACK_TOO_FEW_NODES,  ///< k < 4
+  collinear = PSTRIPACK_COLLINEAR,  ///< all nodes lie on one great circle, or node k is the zero vector
+  too_many_nodes = PSTRIPACK_TOO_MANY_NODES,  ///< 6k-12 does not fit an integer
+  not_finite = PSTRIPACK_BAD_COORDINATE,      ///< a coordinate of node k is NaN or infinite
   broken = broken_lists
 };
 

@@ -4,6 +4,7 @@
 
 #include <string_view>
 
+#include "capi/pstripack.h"
 #include "lists/adjacency_lists.h"
 #include "stripack/expressions.h"
 #include "stripack/formatted_text.h"
@@ -13,10 +14,11 @@ namespace pstripack {
 /// IER of TRPLOT and VRPLOT, except 3, output errors. The text is a picture only if the result is `done`.
 enum class PlotStatus {
   done = 0,
-  bad_size = 1,       ///< lun not in 0..99, plot_size not in 1..8.5, n < 3, VRPLOT: nt not 2n-4
-  bad_view = 2,       ///< |latitude| > 90, |longitude| > 180, angle not in (0,90] or too small to draw
-  bad_node = -5,      ///< a point is not finite, or its length is not within 0.001..1000
-  broken_lists = -9,  ///< not the lists of a triangulation or Voronoi diagram, as far as they are read
+  bad_size = 1,  ///< lun not in 0..99, plot_size not in 1..8.5, n < 3, VRPLOT: nt not 2n-4
+  bad_view = 2,  ///< |latitude| > 90, |longitude| > 180, angle not in (0,90] or too small to draw
+  bad_node = PSTRIPACK_BAD_COORDINATE,  ///< a point is not finite, or its length is not within 0.001..1000
+  broken_lists =
+      PSTRIPACK_BAD_LISTS,  ///< not the lists of a triangulation or Voronoi diagram, as far as they are read
 };
 
 /// The view and its size. Lengths on paper in inches, angles in degrees.

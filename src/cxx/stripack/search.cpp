@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
+#include <iterator>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -61,7 +61,6 @@ class CountedArrays : public CheckedArrays<Int> {
   }
   Int& lend(Int node) const {
     steps_ = 0;
-    // untested: a bound that only broken lists reach; none of the tests' lists does
     if (--most_nodes_ < 0) throw BrokenLists();
     return CheckedArrays<Int>::lend(node);
   }
@@ -92,18 +91,13 @@ class GuardedLists : public ListEditor<CountedArrays<Int>> {
   Nodes<Real> node_;
 };
 
-/// The weights of a, b, c at p by differences: det(p, b, c) = det(p, b - p, c - p), which is wrong by less
-/// than 9 roundings of |p| |b - p| |c - p|. In double for floats, whose differences are exact if coordinates
-/// are within 2^29 of each other; for doubles in double-double, where they always are. If their squares might
-/// underflow they are multiplied by a power of two: a common factor of the weights.
+/// The weights of a, b, c at p by differences: det(p, b, c) = det(p, b - p, c - p), in double-double, where
+/// differences are exact. If their squares might underflow they are multiplied by a power of two: a common
+/// factor of the weights.
 template <class Real>
 [[gnu::noinline]] void weigh_by_differences(const Vector<Real>& a, const Vector<Real>& b,
                                             const Vector<Real>& c, const Vector<Real>& p,
                                             const Weights<Real>& weights) {
-  using T = std::conditional_t<std::is_same_v<Real, float>, double, DoubleDouble>;
-  struct Side {
-    T x, y, z;
-  };
   const Point at = as_point(p), corner[3] = {as_point(a), as_point(b), as_point(c)};
   double most = 0;
   for (const Point& v : corner)
@@ -111,29 +105,23 @@ template <class Real>
   int exponent = 0;
   if (most < 0x1p20 * std::sqrt(std::numeric_limits<Real>::min())) std::frexp(most, &exponent);
   const double scale = std::ldexp(1, std::min(-exponent, 1000));
-  const auto difference = [](double v, double w, double by) {
-    const DoubleDouble d = two_sum(v, -w);
-    if constexpr (std::is_same_v<Real, float>)
-      return by * d.high;
-    else
-      return DoubleDouble{by * d.high, by * d.low};
+  struct Side {
+    DoubleDouble x, y, z;
+    Side(const Point& to, const Point& from, double by)
+        : x(scaled_by(two_sum(to.x, -from.x), by)),
+          y(scaled_by(two_sum(to.y, -from.y), by)),
+          z(scaled_by(two_sum(to.z, -from.z), by)) {}
   };
-  const auto from = [&](const Point& to, const Point& o, double by) {
-    return Side{difference(to.x, o.x, by), difference(to.y, o.y, by), difference(to.z, o.z, by)};
-  };
-  const Side o = from(at, {0, 0, 0}, 1),
-             side[3] = {from(corner[0], at, scale), from(corner[1], at, scale), from(corner[2], at, scale)};
+  const Side o(at, {0, 0, 0}, 1), to_a(corner[0], at, scale), to_b(corner[1], at, scale),
+      to_c(corner[2], at, scale);
   const auto det = [&](const Side& e, const Side& f) {
-    const T value =
+    const DoubleDouble value =
         o.x * (e.y * f.z - e.z * f.y) + o.y * (e.z * f.x - e.x * f.z) + o.z * (e.x * f.y - e.y * f.x);
-    if constexpr (std::is_same_v<Real, float>)
-      return static_cast<Real>(std::max(value, 0.0));
-    else
-      return std::max(value.high, 0.0);
+    return static_cast<Real>(std::max(value.high, 0.0));
   };
-  weights.b1 = det(side[1], side[2]);
-  weights.b2 = det(side[2], side[0]);
-  weights.b3 = det(side[0], side[1]);
+  weights.b1 = det(to_b, to_c);
+  weights.b2 = det(to_c, to_a);
+  weights.b3 = det(to_a, to_b);
 }
 
 /// TRFIND: by rounded tests, as the original; by exact signs where these are not certain or do not end soon.
@@ -315,21 +303,19 @@ class Candidates {
   int count_;
 };
 
-/// The nodes given to GETNP: a hash table. An empty cell holds 0, which is no node number.
+/// The nodes given to GETNP: a hash table. An empty cell holds 0, which is no node number. It is on the heap
+/// for more than 256 nodes.
 template <class Int>
 class GivenNodes {
  public:
   explicit GivenNodes(Int count) {
-    int bits = 4;
-    while (std::int64_t{1} << bits < cells_a_node * std::int64_t{count}) ++bits;
-    shift_ = 64 - bits;
-    last_ = (std::size_t{1} << bits) - 1;
-    if (count > most_without_memory) {
+    while (std::int64_t{1} << (64 - shift_) < kCellsANode * std::int64_t{count}) --shift_;
+    last_ = (std::size_t{1} << (64 - shift_)) - 1;
+    if (last_ >= std::size(few_)) {
       more_.resize(last_ + 1);
       cells_ = more_.data();
     } else {
-      std::memset(few_, 0, sizeof(Int) << bits);
-      cells_ = few_;
+      std::fill_n(few_, last_ + 1, 0);
     }
   }
   GivenNodes(const GivenNodes&) = delete;
@@ -338,30 +324,28 @@ class GivenNodes {
   /// False if the node is in the table already.
   bool insert(Int node) {
     Int& cell = cells_[find(node)];
-    if (cell == node) return false;
+    const bool is_new = cell != node;
     cell = node;
-    return true;
+    return is_new;
   }
   bool contains(Int node) const { return cells_[find(node)] == node; }
 
  private:
-  static constexpr int cells_a_node = 16;  // so many that collisions are rare
-  /// Up to this many nodes need no memory from the heap.
-  static constexpr int most_without_memory = 256;
+  static constexpr int kCellsANode = 16;  // so many that collisions are rare
 
   /// The cell of the node, or the empty one where it would go. Fibonacci hashing: splitmix64 would take GETNP
-  /// 20 % longer. `min` makes one predictable branch of the tests for 0 and for the node.
+  /// 20 % longer.
   std::size_t find(Int node) const {
     std::size_t cell = static_cast<std::uint64_t>(node) * 0x9E3779B97F4A7C15 >> shift_;
-    while (std::min(cells_[cell], cells_[cell] ^ node) != 0) cell = (cell + 1) & last_;
+    while (cells_[cell] != 0 && cells_[cell] != node) cell = (cell + 1) & last_;
     return cell;
   }
 
-  int shift_;
+  int shift_ = 60;
   std::size_t last_;
-  Int* cells_;
+  Int few_[kCellsANode * 256];
+  Int* cells_ = few_;
   std::vector<Int> more_;
-  Int few_[cells_a_node * most_without_memory];
 };
 
 /// Calls visit(neighbour) for the neighbours of a node, the last one first. False if the list runs into a
@@ -369,21 +353,12 @@ class GivenNodes {
 template <class Int, class Visit>
 bool each_neighbour(const ListReader<Int>& reader, Int node, const Visit& visit) {
   const Int last = reader.last_slot(node);
-  Int slot = last, passed = 0;
-  unsigned jumps = 0, jumps_to_pass = 64;
+  Int slot = last;
+  LoopGuard<Int> guard;
   do {
+    if (guard.is_loop(slot)) return false;
     visit(reader.neighbour(slot));
-    const Int next = reader.next(slot);
-    if (next == slot + 1) {  // as in canonical lists; predicted, so the processor need not wait for LPTR
-      ++slot;
-      continue;
-    }
-    slot = next;
-    if (slot == passed) return false;
-    if (++jumps == jumps_to_pass) {  // Brent's search for a loop
-      passed = slot;
-      jumps_to_pass *= 2;
-    }
+    slot = reader.next(slot);
   } while (slot != last);
   return true;
 }
@@ -457,38 +432,19 @@ NextNearestStatus nearest_by_cosines(const ListsView<Int>& lists, const Nodes<Re
   for (Int i = 0; i < given; ++i)
     if (npts[i] < 1 || !taken.insert(npts[i])) return NextNearestStatus::bad_nodes;
   const ListReader<Int> reader(lists);
-  for (Int i = 0; i < given; ++i) reader.prefetch_list(npts[i]);  // a seventh of the time for L = 64
-
   const Vector<Real> centre = nodes[npts[0]];
   Int nearest = 0;
   Real greatest = -2, not_finite = 0;  // NaN if a distance was not finite
-  constexpr std::size_t most = 64;
-  Int others[most];  // neighbours that are not given nodes, to be compared
-  std::size_t count = 0;
-  const auto compare = [&] {
-    for (std::size_t i = 0; i < count; ++i) {
-      reader.prefetch_last_slot(others[i]);  // the next call asks for l + 1: a fifth of the time for N = 1e6
-      const Real cosine = dot(nodes[others[i]], centre);
-      not_finite += 0 * cosine;
-      if (cosine > greatest) {
-        nearest = others[i];
-        greatest = cosine;
-      }
-    }
-    count = 0;
-  };
   for (Int i = 0; i < given; ++i)
     if (!each_neighbour(reader, npts[i], [&](Int node) {
-          // Of many given nodes, most neighbours are given. For N = 1e6 this is a fifth of the time for L = 2
-          // to 5.
-          if (given <= 8) nodes.prefetch(node);
-          // Without a branch, which would be unpredictable: a given node is overwritten by the next one.
-          others[count] = node;
-          count += !taken.contains(node);
-          if (count == most) compare();
+          if (taken.contains(node)) return;
+          const Real cosine = dot(nodes[node], centre);
+          not_finite += 0 * cosine;
+          if (!(cosine > greatest)) return;
+          nearest = node;
+          greatest = cosine;
         }))
       return NextNearestStatus::broken_lists;
-  compare();
   if (not_finite != 0) return NextNearestStatus::not_finite;
   if (nearest == 0) return NextNearestStatus::none_left;
   npts[given] = nearest;

@@ -2,6 +2,7 @@
 // TRFIND, NEARND, GETNP: searches in a triangulation, for (Real, Int) = (float, int32_t), (double, int32_t),
 // (double, int64_t). They always return and do not change the triangulation.
 
+#include "capi/pstripack.h"
 #include "lists/adjacency_lists.h"
 #include "stripack/expressions.h"
 #include "stripack/list_edit.h"
@@ -46,11 +47,11 @@ Int nearnd(const Vector<Real>& p, Int start, const ListsView<Int>& lists, const 
 /// IER of GETNP. Nothing is written unless `done`.
 enum class NextNearestStatus {
   done = 0,
-  too_short = 1,       ///< l < 2
-  not_finite = -5,     ///< a distance is NaN or infinite
-  bad_nodes = -10,     ///< npts[0..l-2] holds a number below 1, or the same one twice
-  broken_lists = -13,  ///< a list runs into a loop; other defects are not checked
-  none_left = -15      ///< all neighbours are in npts: l > n, or vectors far from unit length
+  too_short = 1,                          ///< l < 2
+  not_finite = PSTRIPACK_BAD_COORDINATE,  ///< a distance is NaN or infinite
+  bad_nodes = PSTRIPACK_BAD_NUMBER,       ///< npts[0..l-2] holds a number below 1, or the same one twice
+  broken_lists = PSTRIPACK_BAD_LISTS,     ///< a list runs into a loop; other defects are not checked
+  none_left = PSTRIPACK_NONE_LEFT  ///< all neighbours are in npts: l > n, or vectors far from unit length
 };
 
 /// GETNP: given node npts[0] and the l-2 nodes nearest to it, writes the next nearest node into npts[l-1] and

@@ -197,6 +197,17 @@ class FarSide {
   Int count_ = 0;
 };
 
+/// The number of boundary nodes, clockwise from boundary node `start`; 0 if the boundary is not one cycle.
+template <class Int>
+Int boundary_length(const ListReader<Int>& lists, Int start) {
+  Int count = 0, node = start;
+  do {
+    ++count;
+    node = lists.last_neighbour(node);
+  } while (node != start && count < lists.size());
+  return node == start ? count : 0;
+}
+
 template <class Real, class Int>
 class Voronoi {
  public:
@@ -213,32 +224,31 @@ class Voronoi {
       far_side.make_fan(start_, nb_);
       if (out_.ncol < nb_ - 2) return VoronoiStatus::too_few_columns;
       far_side.make_delaunay(agenda_);
-      for (Int g = 1; g <= nb_ - 2; ++g) {
-        const VoronoiStatus status =
-            write_centre(g, far_side.row(1, g), far_side.row(2, g), far_side.row(3, g));
-        if (status != VoronoiStatus::done) return status;
-      }
+      for (Int g = 1; g <= nb_ - 2; ++g)
+        if (const unsigned faults =
+                write_centre(g, far_side.row(1, g), far_side.row(2, g), far_side.row(3, g)))
+          return status_of(faults);
     }
-    std::atomic<bool> coincident{false}, not_finite{false};
+    std::atomic<unsigned> faults{0};
     const bool in_slot_order = rings_.in_slot_order();
-    const bool complete = numbers_->write(far_triangles(), in_slot_order ? out_.listc : left_.data(),
-                                          [&](std::size_t begin, std::size_t end, Int t) {
-                                            const VoronoiStatus status = write_centres(begin, end, t);
-                                            // untested: in children of Differential.CRLIST only
-                                            if (status == VoronoiStatus::coincident_nodes) coincident = true;
-                                            if (status == VoronoiStatus::not_finite) not_finite = true;
-                                          });
+    const bool complete = numbers_->write(
+        far_triangles(), in_slot_order ? out_.listc : left_.data(),
+        [&](std::size_t begin, std::size_t end, Int t) { faults |= write_centres(begin, end, t); });
     if (!complete) return VoronoiStatus::broken_lists;
     if (!in_slot_order)
       for (Int arc = 0; arc < rings_.arcs(); ++arc) listc(rings_.slot(arc)) = left_[index(arc)];
-    if (not_finite) return VoronoiStatus::not_finite;
-    if (coincident) return VoronoiStatus::coincident_nodes;
+    if (faults != 0) return status_of(faults);
     if (nb_ > 0) enter(far_side);
     return VoronoiStatus::done;
   }
 
  private:
   static constexpr FirstPair pairs = FirstPair::last_and_first;
+  /// Faults of triangles: two corners coincide; a coordinate is not finite.
+  static constexpr unsigned coincident = 1, not_finite = 2;
+  static VoronoiStatus status_of(unsigned faults) {
+    return (faults & not_finite) != 0 ? VoronoiStatus::not_finite : VoronoiStatus::coincident_nodes;
+  }
 
   /// Number of triangles whose centres are computed together, without branches, while positions of the next
   /// are prefetched.
@@ -261,12 +271,8 @@ class Voronoi {
 
     start_ = lists_.first_boundary_node();
     if (start_ != 0) {
-      Int node = start_;
-      do {
-        ++nb_;
-        node = lists_.last_neighbour(node);
-      } while (node != start_ && nb_ < n);
-      if (node != start_ || nb_ < 3) return false;
+      nb_ = boundary_length(lists_, start_);
+      if (nb_ < 3) return false;
       agenda_ = Agenda<Int>(static_cast<std::size_t>(nb_ - 2));
     }
     if (rings_.arcs() != (nb_ > 0 ? 6 * n - 6 - 2 * nb_ : 6 * n - 12)) return false;
@@ -285,12 +291,11 @@ class Voronoi {
   Int far_triangles() const { return nb_ > 0 ? nb_ - 2 : 0; }
 
   /// Writes the centres of the triangles of the nodes begin+1..end; t is the number of triangles before them.
-  VoronoiStatus write_centres(std::size_t begin, std::size_t end, Int t) {
-    VoronoiStatus status = VoronoiStatus::done;
+  unsigned write_centres(std::size_t begin, std::size_t end, Int t) {
+    unsigned faults = 0;
     Batch batch;
     const auto flush = [&] {
-      const VoronoiStatus of_batch = write_batch(t, batch);
-      if (status == VoronoiStatus::done || of_batch == VoronoiStatus::not_finite) status = of_batch;
+      faults |= write_batch(t, batch);
       t += static_cast<Int>(batch.size);
       batch.size = 0;
     };
@@ -303,7 +308,7 @@ class Voronoi {
       if (++batch.size == together) flush();
     });
     flush();
-    return status;
+    return faults;
   }
 
   [[gnu::always_inline]] void prefetch(Int node) const {
@@ -314,7 +319,7 @@ class Voronoi {
   }
 
   /// Writes the same values as write_centre, by loops that compilers can vectorise.
-  VoronoiStatus write_batch(Int t, const Batch& batch) {
+  unsigned write_batch(Int t, const Batch& batch) {
     if (directions_ != nullptr) return write_one_by_one(t, batch);
     using Numbers = std::array<Real, together>;
     Numbers ax, ay, az, ex, ey, ez, fx, fy, fz, square, x, y, z, cosine;
@@ -344,21 +349,18 @@ class Voronoi {
       out_.zc[first + i] = z[i];
       out_.rc[first + i] = clamped_acos(cosine[i]);
     }
-    return VoronoiStatus::done;
+    return 0;
   }
 
   /// For directions, and for a batch with nodes that coincide or are not finite.
-  VoronoiStatus write_one_by_one(Int t, const Batch& batch) {
-    VoronoiStatus status = VoronoiStatus::done;
-    for (std::size_t i = 0; i < batch.size; ++i) {
-      const VoronoiStatus centre =
-          write_centre(++t, batch.corner[0][i], batch.corner[1][i], batch.corner[2][i]);
-      if (status == VoronoiStatus::done || centre == VoronoiStatus::not_finite) status = centre;
-    }
-    return status;
+  unsigned write_one_by_one(Int t, const Batch& batch) {
+    unsigned faults = 0;
+    for (std::size_t i = 0; i < batch.size; ++i)
+      faults |= write_centre(++t, batch.corner[0][i], batch.corner[1][i], batch.corner[2][i]);
+    return faults;
   }
 
-  VoronoiStatus write_centre(Int t, Int node_a, Int node_b, Int node_c) {
+  unsigned write_centre(Int t, Int node_a, Int node_b, Int node_c) {
     const std::size_t i = index(t - 1);
     const auto write = [&](const auto& centre) {
       out_.xc[i] = static_cast<Real>(centre.x);
@@ -369,15 +371,15 @@ class Voronoi {
       const auto at = [](Int node) { return static_cast<index_t>(node - 1); };
       const Point centre = circumcentre(*directions_, at(node_a), at(node_b), at(node_c));
       write(centre);
-      return std::isnan(centre.x) ? VoronoiStatus::coincident_nodes : VoronoiStatus::done;
+      return std::isnan(centre.x) ? coincident : 0;
     }
     const Vector<Real> a = nodes_[node_a], b = nodes_[node_b], c = nodes_[node_c];
     Vector<Real> centre;
-    if (!circumcentre(a, b, c, centre)) return VoronoiStatus::coincident_nodes;
+    if (!circumcentre(a, b, c, centre)) return coincident;
     write(centre);
     out_.rc[i] = clamped_acos(dot(a, centre));
     const bool finite = !std::isnan(out_.rc[i]) || (is_finite(a) && is_finite(b) && is_finite(c));
-    return finite ? VoronoiStatus::done : VoronoiStatus::not_finite;
+    return finite ? 0 : not_finite;
   }
 
   /// Enters the far side into LISTC and LPTR, node by node counterclockwise around the boundary. At node u
@@ -464,15 +466,10 @@ struct BackEdge {
 /// Sorted; none where the triangles cover the sphere. False if the boundary is not one cycle.
 bool find_back_edges(const ListReader<std::int32_t>& lists, const Directions& nodes,
                      std::vector<BackEdge>& edges) {
-  const std::int32_t start = lists.first_boundary_node(), n = lists.size();
-  std::int32_t count = 0;
+  const std::int32_t start = lists.first_boundary_node();
   if (start == 0) return true;
-  std::int32_t node = start;
-  do {
-    ++count;
-    node = lists.last_neighbour(node);
-  } while (node != start && count < n);
-  if (node != start || count < 3) return false;
+  const std::int32_t count = boundary_length(lists, start);
+  if (count < 3) return false;
   std::vector<std::int32_t> columns(6 * static_cast<std::size_t>(count - 2));
   const Nodes<double> none{};
   FarSide<double, std::int32_t> far_side(lists, none, &nodes, count - 2, columns.data());
@@ -487,10 +484,6 @@ bool find_back_edges(const ListReader<std::int32_t>& lists, const Directions& no
   std::sort(edges.begin(), edges.end());
   return true;
 }
-
-}  // namespace
-
-namespace {
 
 /// Throws NodesTooClose if a neighbour is so close that the area of a disc between the two is below all
 /// doubles: a cell holds one of half the distance to the nearest neighbour.

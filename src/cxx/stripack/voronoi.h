@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "capi/pstripack.h"
 #include "geometry/predicates.h"
 #include "lists/adjacency_lists.h"
 #include "stripack/expressions.h"
@@ -23,8 +24,9 @@ enum class VoronoiStatus {
   too_few_nodes = 1,     ///< n < 3; nb = 0, nothing else is written
   too_few_columns = 2,   ///< NCOL < nb - 2; nb and the first NCOL columns of LTRI are written
   coincident_nodes = 3,  ///< a triangle without circumcentre; its centre and radius are not written
-  not_finite = -5,       ///< a coordinate is NaN or infinite; LPTR, LNEW unchanged
-  broken_lists = -9  ///< not the lists of a triangulation (the original does not check); LPTR, LNEW unchanged
+  not_finite = PSTRIPACK_BAD_COORDINATE,  ///< a coordinate is NaN or infinite; LPTR, LNEW unchanged
+  broken_lists = PSTRIPACK_BAD_LISTS      ///< not the lists of a triangulation (the original does not check);
+                                          ///< LPTR, LNEW unchanged
 };
 
 /// CRLIST's arrays, with their lengths in brackets.

@@ -17,6 +17,9 @@ struct TrmeshCall {
   NodeArrays nodes;
   ListArrays lists;
   bool by_direction = false;  ///< the mesh of the directions, whatever the lengths
+  /// The first three nodes may lie on one great circle. If all do, std::domain_error is thrown; if two
+  /// coincide, no lists are written.
+  bool starts_anywhere = false;
 };
 
 /// Outcome of PSTRIPACK_ORDER. The lists are canonical except for `made` and `inexact`.

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "capi/pstripack.h"
 #include "mesh/delaunay.h"
 #include "parallel/coincidence.h"
 
@@ -132,7 +133,7 @@ ExactDifference exact_difference(const NodeArrays& nodes, const ListsView<Int>& 
   BlockArray<Point> copy(lists.n);
   const Point* const p = nodes.points(0, lists.n, copy.data());
   if (left(p[0], p[1], p[2]) == 0) {
-    difference.ier = -2;
+    difference.ier = PSTRIPACK_COLLINEAR;
     return difference;
   }
   Workspace workspace(workspace_bytes(lists.n));

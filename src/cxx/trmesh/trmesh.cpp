@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/parallel_for.h"
+#include "capi/pstripack.h"
 #include "lists/adjacency_lists.h"
 #include "lists/limits.h"
 #include "lists/list_pieces.h"
@@ -112,8 +113,14 @@ template <class Way>
 TrmeshResult cold_by(const TrmeshCall& call, ParallelCost* cost) {
   Way way(call, cost);
   const auto n = static_cast<std::size_t>(call.n), first_bad = way.check(n);
-  if (first_bad < n) return {-5, static_cast<std::int64_t>(first_bad) + 1};
-  if (left(call.nodes[0], call.nodes[1], call.nodes[2]) == 0) return {-2};
+  if (first_bad < n) return {PSTRIPACK_BAD_COORDINATE, static_cast<std::int64_t>(first_bad) + 1};
+  if (call.starts_anywhere) {
+    if (const auto first = way.triangulate(n))
+      return {static_cast<std::int32_t>(first->l), first->l, first->m};
+    way.deliver();
+    return {0};
+  }
+  if (left(call.nodes[0], call.nodes[1], call.nodes[2]) == 0) return {PSTRIPACK_COLLINEAR};
   return triangulate_and_deliver(call.n, way);
 }
 
@@ -124,10 +131,23 @@ TrmeshResult cold(const TrmeshCall& call, CallWay* way, ParallelCost* cost, Engi
     // This process can carry out every call.
   }
   const ParallelOptions options = options_from_environment(static_cast<std::size_t>(call.n));
-  if (options.patches > 1) return cold_by<ByPatches>(call, cost);
+  if (options.patches > 1 && !call.starts_anywhere) return cold_by<ByPatches>(call, cost);
   if (cost != nullptr) cost->set_threads({1, options.thread_limit});
-  const ChosenThreads one(1);  // the insertion uses one: it would fetch what another has sorted from its cache
+  const ChosenThreads one(
+      1);  // the insertion uses one: it would fetch what another has sorted from its cache
   return cold_by<ByOneHull>(call, cost);
+}
+
+/// How good the lists are that the insertion has made.
+OriginalOrder order_of(const NodeArrays& given, const InsertedNodes<std::int32_t>& inserted, bool bitwise) {
+  if (inserted.outcome.end == InsertionEnd::hopeless) return OriginalOrder::wrong;
+  BlockArray<Point> nodes(inserted.nodes);
+  given.copy(0, nodes.size(), nodes.data());
+  if (left(nodes[0], nodes[1], nodes[2]) != 0 &&
+      is_valid(nodes.data(), inserted.view(), Lengths::automatic, Ties::either_way))
+    return OriginalOrder::made;
+  if (!bitwise) return OriginalOrder::wrong;
+  return check_topology(inserted.view()) ? OriginalOrder::inexact : OriginalOrder::broken;
 }
 
 /// Writes the lists as the original makes them, if they are the exact mesh (result.order `made`) or, under
@@ -137,43 +157,24 @@ TrmeshResult lists_in_original_order(const TrmeshCall& call, ParallelCost* cost)
   {
     const PhaseTimer timer(cost, ParallelCost::divide);
     const auto n = static_cast<std::size_t>(call.n), first_bad = check_nodes(call.nodes, n).first_bad;
-    if (first_bad < n) return {-5, static_cast<std::int64_t>(first_bad) + 1};
+    if (first_bad < n) return {PSTRIPACK_BAD_COORDINATE, static_cast<std::int64_t>(first_bad) + 1};
   }
-  if (!rules.bitwise && left(call.nodes[0], call.nodes[1], call.nodes[2]) == 0) return {-2};
-  const Seeds<std::int32_t> seeds = seeds_of_thread();
+  if (!rules.bitwise && left(call.nodes[0], call.nodes[1], call.nodes[2]) == 0) return {PSTRIPACK_COLLINEAR};
   InsertedNodes<std::int32_t> inserted;
-  const auto insert = [&](Hopeless hopeless, StartSearch start_search) {
+  {
     const PhaseTimer timer(cost, ParallelCost::triangulate);
-    inserted = {};
     inserted = call.nodes.visit_arrays([&](const auto* x, const auto* y, const auto* z) {
-      return insert_in_order(call.n, x, y, z, rules, hopeless, start_search);
+      return insert_in_order(call.n, x, y, z, rules, rules.bitwise ? Hopeless::goes_on : Hopeless::ends);
     });
-  };
-  /// The result of the insertion: its order is `good` if are_good(), else `bad`, collinear or endless.
-  const auto outcome = [&](OriginalOrder good, OriginalOrder bad, const auto& are_good) -> TrmeshResult {
-    const auto [end, node, other] = inserted.outcome;
-    if (end == InsertionEnd::collinear) return {0, 0, 0, OriginalOrder::collinear, node};
-    if (end == InsertionEnd::endless) return {0, 0, 0, OriginalOrder::endless, node};
+  }
+  const auto [end, node, other] = inserted.outcome;
+  if (end == InsertionEnd::collinear) return {0, 0, 0, OriginalOrder::collinear, node};
+  if (end == InsertionEnd::endless) return {0, 0, 0, OriginalOrder::endless, node};
+  TrmeshResult result{0};
+  if (end == InsertionEnd::coincident) result = {static_cast<std::int32_t>(other), other, node};
+  {
     const PhaseTimer timer(cost, ParallelCost::lists);
-    if (end == InsertionEnd::hopeless || !are_good()) return {0, 0, 0, bad};
-    if (end == InsertionEnd::coincident) return {static_cast<std::int32_t>(other), other, node, good};
-    return {0, 0, 0, good};
-  };
-
-  insert(Hopeless::ends, StartSearch::adaptive);
-  TrmeshResult result = outcome(OriginalOrder::made, OriginalOrder::wrong, [&] {
-    BlockArray<Point> nodes(static_cast<std::size_t>(call.n));
-    call.nodes.copy(0, nodes.size(), nodes.data());
-    return left(nodes[0], nodes[1], nodes[2]) != 0 &&
-           is_valid(nodes.data(), inserted.view(), Lengths::automatic, Ties::either_way);
-  });
-  if (rules.bitwise && result.order != OriginalOrder::made) {
-    // Repeat to the end, by the original's bookkeeping alone: locating nodes is valid only while the
-    // triangulation is correct.
-    seeds_of_thread() = seeds;
-    insert(Hopeless::goes_on, StartSearch::simulated);
-    result = outcome(OriginalOrder::inexact, OriginalOrder::broken,
-                     [&] { return static_cast<bool>(check_topology(inserted.view())); });
+    result.order = order_of(call.nodes, inserted, rules.bitwise);
   }
   if (result.order != OriginalOrder::made && result.order != OriginalOrder::inexact) return result;
   std::copy_n(inserted.list.data(), inserted.list.size(), call.lists.list);
@@ -189,8 +190,8 @@ TrmeshResult lists_in_original_order(const TrmeshCall& call, ParallelCost* cost)
 TrmeshResult carry_out(const TrmeshCall& call, bool follow, CallWay* way, Engine* communicator,
                        Engine* pool) {
   if (communicator != nullptr && communicator->takes(call)) return communicator->carry_out(call, way);
-  if (call.n < 3) return {-1};
-  if (call.n > most_nodes<std::int32_t>()) return {-4};
+  if (call.n < 3) return {PSTRIPACK_TOO_FEW_NODES};
+  if (call.n > most_nodes<std::int32_t>()) return {PSTRIPACK_TOO_MANY_NODES};
 
   ParallelCost* const cost = way != nullptr ? &way->cost.maximum : nullptr;
   TrmeshResult original{0};

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
-#include <type_traits>
 
 #include "geometry/predicates.h"
 #include "stripack/original/insertion_lists.h"
@@ -24,11 +22,24 @@ class Insertion {
     for (Int k = 1; k <= n; ++k) lists_.place(k, nodes[k]);
   }
 
-  InsertionOutcome insert_all(Hopeless hopeless, StartSearch start_search) {
-    const Seeds<std::int32_t> seeds = seeds_of_thread();
-    if (const auto outcome = try_to_insert_all(hopeless, start_search)) return *outcome;
-    seeds_of_thread() = seeds;
-    return *try_to_insert_all(hopeless, StartSearch::simulated);
+  InsertionOutcome insert_all(Hopeless hopeless) {
+    const Real d = side(lists_[1], lists_[2], lists_[3]);
+    if (d == 0) return {InsertionEnd::collinear, 3};
+    lists_.start(d > 0);
+
+    WaitingNodes<Real, Int> waiting(n_, lists_);
+    std::int64_t next_look = hopeless == Hopeless::ends ? 1000 : n_;
+    for (Int k = 4; k <= n_; ++k) {
+      prefetch(k, waiting);
+      if (const InsertionOutcome outcome = insert(k, waiting.near(k)); outcome.end != InsertionEnd::complete)
+        return outcome;
+      waiting.compare_with(k);
+      if (k == next_look && k < n_) {
+        if (is_hopeless()) return {InsertionEnd::hopeless, k};
+        next_look *= 8;
+      }
+    }
+    return {};
   }
 
   void write(InsertedNodes<Int>& to) const {
@@ -41,59 +52,6 @@ class Insertion {
   }
 
  private:
-  /// Empty if it takes too much memory. That cannot happen with StartSearch::simulated.
-  std::optional<InsertionOutcome> try_to_insert_all(Hopeless hopeless, StartSearch start_search) {
-    const Real d = side(lists_[1], lists_[2], lists_[3]);
-    if (d == 0) return InsertionOutcome{InsertionEnd::collinear, 3};
-    lists_.start(d > 0);
-
-    WaitingNodes<Real, Int> waiting(n_, lists_);
-    std::optional<SettledNodes<Real, Int>> settled;
-    const auto is_settled = [&](Int i, const Vector<Real>& p, Int near) {
-      return settled->settle(i, p, near);
-    };
-    const bool may_locate = start_search != StartSearch::simulated && can_locate();
-    std::int64_t next_look = hopeless == Hopeless::ends ? 1000 : n_;
-    for (Int k = 4; k <= n_; ++k) {
-      prefetch(k, waiting);
-      if (may_locate && !settled &&
-          (start_search == StartSearch::by_location || locating_pays(k, waiting.comparisons()))) {
-        settled.emplace(n_, lists_);
-        for (Int j = 1; j < k; ++j) waiting.forget(j, is_settled);
-      }
-      const Int start = settled && settled->is_settled(k) ? settled->near(k, lists_[k]) : waiting.near(k);
-      if (const InsertionOutcome outcome = insert(k, start); outcome.end != InsertionEnd::complete)
-        return outcome;
-      const Real cosine = waiting.compare_with(k);
-      if (settled) {
-        settled->add(k);
-        if (settled->may_settle(cosine)) waiting.forget(k, is_settled);
-        if (settled->is_full()) return std::nullopt;
-      }
-      if (k == next_look && k < n_) {
-        if (is_hopeless()) return InsertionOutcome{InsertionEnd::hopeless, k};
-        next_look *= 8;
-      }
-    }
-    return InsertionOutcome{};
-  }
-
-  /// False in single precision, where too many nodes are equally near, and if a length differs from 1,
-  /// because the search compares directions.
-  bool can_locate() const {
-    constexpr double kUpToRounding = 0x1p-49;
-    if (!std::is_same_v<Real, double>) return false;
-    for (Int k = 1; k <= n_; ++k)
-      if (!(std::fabs(static_cast<double>(dot(lists_[k], lists_[k])) - 1) < kUpToRounding)) return false;
-    return true;
-  }
-  /// In random order a new node k is compared with about 6n/k waiting nodes. If it is compared with many
-  /// more, the waiting nodes are in long lists, and locating is faster.
-  bool locating_pays(Int k, std::int64_t comparisons) const {
-    const double in_random_order = 6 * static_cast<double>(n_) * (1 + std::log(static_cast<double>(k)));
-    return static_cast<double>(comparisons) > 2 * in_random_order;
-  }
-
   /// In random order all data for the insertion of a node are far apart in memory. Always inlined: GCC 12
   /// otherwise considers these functions free of side effects and drops the calls.
   [[gnu::always_inline]] void prefetch(Int k, const WaitingNodes<Real, Int>& waiting) const {
@@ -185,10 +143,10 @@ class Insertion {
 
 template <class Real, class Int>
 InsertedNodes<Int> insert_in_order(Int n, const Real* x, const Real* y, const Real* z,
-                                   const OriginalRules& rules, Hopeless hopeless, StartSearch start_search) {
+                                   const OriginalRules& rules, Hopeless hopeless) {
   Insertion<Real, Int> insertion(n, x, y, z, rules);
   InsertedNodes<Int> result;
-  result.outcome = insertion.insert_all(hopeless, start_search);
+  result.outcome = insertion.insert_all(hopeless);
   const InsertionEnd end = result.outcome.end;
   if (end == InsertionEnd::complete || end == InsertionEnd::coincident) insertion.write(result);
   return result;
@@ -196,7 +154,7 @@ InsertedNodes<Int> insert_in_order(Int n, const Real* x, const Real* y, const Re
 
 #define PSTRIPACK_ORIGINAL_ORDER(Real, Int)                                               \
   template InsertedNodes<Int> insert_in_order(Int, const Real*, const Real*, const Real*, \
-                                              const OriginalRules&, Hopeless, StartSearch);
+                                              const OriginalRules&, Hopeless);
 PSTRIPACK_ORIGINAL_ORDER(float, std::int32_t)
 PSTRIPACK_ORIGINAL_ORDER(double, std::int32_t)
 

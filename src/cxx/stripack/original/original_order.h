@@ -44,7 +44,6 @@ enum class Hopeless { goes_on, ends };
 /// std::bad_alloc.
 template <class Real, class Int>
 InsertedNodes<Int> insert_in_order(Int n, const Real* x, const Real* y, const Real* z,
-                                   const OriginalRules& rules, Hopeless hopeless = Hopeless::goes_on,
-                                   StartSearch start_search = StartSearch::adaptive);
+                                   const OriginalRules& rules, Hopeless hopeless = Hopeless::goes_on);
 
 }  // namespace pstripack
