@@ -498,7 +498,7 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember(kKinds))
       ->capture_default_str();
   app.add_option("--mode", s.mode, "no tables: one run of this mode on the ranks of this mpirun")
-      ->check(CLI::IsMember({"distributed", "pool", "messages", kScvt, kMoving}));
+      ->check(CLI::IsMember(std::vector<std::string>{"distributed", "pool", "messages", kScvt, kMoving}));
   app.add_option("--n", s.n, "nodes of that run")->capture_default_str();
   try {
     app.parse(argc, argv);

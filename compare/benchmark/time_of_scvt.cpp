@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "measuring.h"
@@ -127,6 +128,7 @@ void run_descents(const DescentSettings& settings) {
       "{:<8} {:<7} {:>12} {:>12} {:>9} {:>10}\n",
       n, settings.tolerance, settings.evaluations, "method", "first", "evaluations", "cpu seconds",
       "gradient", "energy N");
+  std::fflush(stdout);
   for (const Descent& d : kDescents)
     in_its_own_process([&] {
       const ConstantDensity density;
@@ -136,21 +138,25 @@ void run_descents(const DescentSettings& settings) {
       options.most_evaluations = settings.evaluations;
       std::int64_t before = 0;  // number of generators of the level
       double of_levels = 0, of_this = 0, shown = 0;
+      std::string row;  // not printed: every row has a tenth more evaluations, and the last one is printed
       const double start = cpu_seconds();
       options.progress = [&](const Progress& p) {
         if (p.generators != before) of_levels += of_this;
         before = p.generators;
         of_this = static_cast<double>(p.evaluations * p.generators) / settings.n;
         const double evaluations = of_levels + of_this;
-        if (p.generators != settings.n || evaluations < 1.1 * shown) return true;  // a row a tenth more
+        if (p.generators != settings.n) return true;
+        row = fmt::format("{:<8} {:<7} {:>12.1f} {:>12.3f} {:>9.2e} {:>10.5f}\n",
+                          d.method == Method::lloyd ? "lloyd" : "newton", name_of(d.first), evaluations,
+                          cpu_seconds() - start, p.gradient, p.energy * static_cast<double>(p.generators));
+        if (evaluations < 1.1 * shown) return true;
         shown = evaluations;
-        fmt::print("{:<8} {:<7} {:>12.1f} {:>12.3f} {:>9.2e} {:>10.5f}\n",
-                   d.method == Method::lloyd ? "lloyd" : "newton", name_of(d.first), evaluations,
-                   cpu_seconds() - start, p.gradient, p.energy * static_cast<double>(p.generators));
-        std::fflush(stdout);
+        fmt::print("{}", std::exchange(row, ""));
         return true;
       };
       descend(n, density, d.first, options);
+      fmt::print("{}", row);
+      std::fflush(stdout);
     });
 }
 

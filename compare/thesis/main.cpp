@@ -57,7 +57,7 @@ struct Options {
   bool shuffle = false, check = false;
 };
 
-/// The items that all ranks have for rank `to`, in the order of the ranks; none on other ranks. Collective.
+/// Sends `mine` to rank `to`; returns what all ranks have sent to this one, in their order. Collective.
 template <class Item>
 std::vector<Item> sent_to(int to, MpiCommunicator& ranks, const std::vector<Item>& mine) {
   std::vector<std::vector<Item>> items(static_cast<std::size_t>(ranks.size()));
