@@ -185,14 +185,8 @@ def markdown_page(routine):
 INDEX_HEAD = """# STRIPACK's routines
 
 One page per routine, also installed as a man page (`man 3 trmesh`). Old Fortran codes call these symbols without
-interfaces; `use stripack` provides interfaces.
-
-| library | real | integer, logical | |
-| --- | --- | --- | --- |
-| libstripack | 8 bytes | 4 bytes | |
-| libstripack_r4 | 4 bytes | 4 bytes | |
-| libstripack_8arg | 8 bytes | 4 bytes | TRMESH with 8 arguments |
-| libstripack_i8 | 8 bytes | 8 bytes | for codes compiled with `-fdefault-integer-8`, `-i8`; N up to 357,913,943 as everywhere |
+interfaces; `use stripack` provides interfaces. Reals, integers and logicals have the kinds of [the
+library](../relink.md#2-which-library).
 
 Unless a page says otherwise:
 
@@ -201,8 +195,8 @@ Unless a page says otherwise:
   LPTR have the first size, LEND the second. *in/out* is read and changed.
 - No routine is collective: in an MPI program any number of ranks may call any number of times (TRMESH is collective on
   request). Any number of threads may call it at once with their own arrays.
-- No routine ends the program or prints. A code marked *new*, which the original does not have, also prints one line on
-  stderr that says why.
+- No routine ends the program or prints. A [code](ier.md) marked *new*, which the original does not have, also prints one
+  line on stderr that says why.
 - The source is R. J. Renka, "Algorithm 772: STRIPACK", ACM Transactions on Mathematical Software 23 (1997) 416-434."""
 
 INDEX_TAIL = """## Not in these libraries
