@@ -529,14 +529,4 @@ void write_csv_field(const OutputFile& file, const LonLat& places, const Field& 
   write_csv(file, with_angles(columns, places));
 }
 
-LonLat Grid::places() const {
-  LonLat all;
-  for (const double y : lat)
-    for (const double x : lon) {
-      all.lon.push_back(x);
-      all.lat.push_back(y);
-    }
-  return all;
-}
-
 }  // namespace files
