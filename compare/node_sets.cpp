@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "commands.h"
 #include "point_sets.h"
 
 namespace comparison {
 
 using pstripack::Point;
 
-std::vector<Point> read_nodes(const std::string& file, files::ReadOptions options) {
-  options.exit_code = kUsage;
+std::vector<Point> read_nodes(const std::string& file, const files::ReadOptions& options) {
   return files::read(file, options).points;
 }
 

@@ -12,7 +12,7 @@ namespace comparison {
 
 /// Reads nodes as pstripack does (files::read). Throws std::runtime_error with one line that says what was
 /// expected where.
-std::vector<pstripack::Point> read_nodes(const std::string& file, files::ReadOptions options = {});
+std::vector<pstripack::Point> read_nodes(const std::string& file, const files::ReadOptions& options = {});
 
 /// Orders: "given"; "shuffled"; "sorted" by z (latitude), then by longitude. Of the orders found in models
 /// the last one is about the slowest for a method that inserts nodes one after another.

@@ -31,4 +31,7 @@ Faces clipped_to_region(const Faces& cells, const Region& region);
 /// two sides, if the rings of a polygon cross.
 Faces clipped_to_polygons(const Faces& cells, const std::vector<MapRegion>& polygons);
 
+/// Throws NoMesh, naming the feature and two sides, if rings of the polygon cross.
+void expect_no_crossing(const MapRegion& polygon);
+
 }  // namespace files

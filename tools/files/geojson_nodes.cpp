@@ -186,12 +186,7 @@ void take_given_angles(Nodes& nodes, Columns& columns) {
 
 /// The columns that --columns names after those of the place.
 std::vector<std::string> chosen(const ReadOptions& options, const Columns& columns, const std::string& file) {
-  std::vector<std::string> words;
-  for (std::size_t begin = 0; begin <= options.columns.size();) {
-    const std::size_t end = std::min(options.columns.find(',', begin), options.columns.size());
-    words.push_back(options.columns.substr(begin, end - begin));
-    begin = end + 1;
-  }
+  std::vector<std::string> words = parts_of(options.columns, ',');
   const std::string axes = options.coordinates == Coordinates::xyz ? "xyz" : "oa";
   for (std::size_t k = 0; k < axes.size(); ++k)
     if (k >= words.size() || axis_of(words[k]) != axes[k])

@@ -16,41 +16,9 @@ namespace {
 constexpr double kPi = 3.14159265358979323846, kDegree = kPi / 180;
 using Corner = std::pair<double, double>;
 
-// ---- areas ------------------------------------------------------------------------------------------------
-
-/// Twice the area of the triangle in the plane; positive if counterclockwise.
-double turn(const Corner& a, const Corner& b, const Corner& c) {
-  return (b.first - a.first) * (c.second - a.second) - (b.second - a.second) * (c.first - a.first);
-}
-
-bool sides_cross(const Corner& a, const Corner& b, const Corner& c, const Corner& d) {
-  return turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0;
-}
-
-/// Throws if two sides of the ring cross. They are compared with those that reach up to the same parallel.
-void check_crossings(const std::vector<Corner>& ring, const std::string& name) {
-  const auto low = [&](std::size_t i) { return std::min(ring[i].second, ring[i + 1].second); };
-  const auto high = [&](std::size_t i) { return std::max(ring[i].second, ring[i + 1].second); };
-  std::vector<std::size_t> sides(ring.size() - 1), open;
-  for (std::size_t i = 0; i < sides.size(); ++i) sides[i] = i;
-  std::sort(sides.begin(), sides.end(), [&](std::size_t a, std::size_t b) { return low(a) < low(b); });
-  for (const std::size_t side : sides) {
-    open.erase(std::remove_if(open.begin(), open.end(), [&](std::size_t o) { return high(o) < low(side); }),
-               open.end());
-    for (const std::size_t o : open)
-      if (sides_cross(ring[side], ring[side + 1], ring[o], ring[o + 1])) {
-        const auto [first, second] = std::minmax(side, o);
-        throw std::runtime_error(fmt::format(
-            "{}: its sides from corner {} (lon {:g} lat {:g}) and from corner {} (lon {:g} lat {:g}) cross: "
-            "put the corners in order around the region",
-            name, first + 1, ring[first].first, ring[first].second, second + 1, ring[second].first,
-            ring[second].second));
-      }
-    open.push_back(side);
-  }
-}
-
 }  // namespace
+
+// ---- areas ------------------------------------------------------------------------------------------------
 
 std::vector<Corner> LimitedArea::inside(double parallel) const {
   std::vector<Corner> pairs;
@@ -142,7 +110,11 @@ LimitedArea polygon_area(const std::string& file, bool are_degrees) {
           "first",
           name, lon, lat));
     }
-    check_crossings(polygon.rings[0], name);
+    try {
+      expect_no_crossing(polygon);
+    } catch (const NoMesh& e) {
+      throw std::runtime_error(file + ": " + e.what());
+    }
     for (const auto& [lon, lat] : polygon.rings[0])
       may_be_radians = may_be_radians && std::fabs(lon) <= 2 * kPi && std::fabs(lat) <= kPi / 2;
   }

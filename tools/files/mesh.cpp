@@ -240,35 +240,20 @@ bool Mesh::has_boundary() const {
 
 std::vector<std::int32_t> triangles_of(const Mesh& mesh) {
   const pstripack::ListReader<std::int32_t> reader(mesh.lists());
-  const std::size_t n = mesh.points.size();
+  std::vector<std::int32_t> triangles;
+  triangles.reserve(3 * mesh.triangles());
   // Each triangle is listed once, at its smallest corner, as two consecutive neighbours.
-  const auto for_each = [&](std::size_t first, std::size_t last, const auto& take) {
-    for (auto node = static_cast<std::int32_t>(first + 1); node <= static_cast<std::int32_t>(last); ++node) {
-      const std::int32_t end = reader.last_slot(node), begin = reader.next(end);
-      for (std::int32_t slot = begin, next = 0;; slot = next) {
-        next = reader.next(slot);
-        if (slot == end && reader.entry(end) < 0) break;  // the last neighbour of a boundary node
-        const std::int32_t b = reader.neighbour(slot), c = reader.neighbour(next);
-        if (node < b && node < c) take(node, b, c);
-        if (slot == end) break;
-      }
+  for (std::int32_t node = 1; node <= reader.size(); ++node) {
+    const std::int32_t end = reader.last_slot(node), begin = reader.next(end);
+    for (std::int32_t slot = begin, next = 0;; slot = next) {
+      next = reader.next(slot);
+      if (slot == end && reader.entry(end) < 0) break;  // the last neighbour of a boundary node
+      const std::int32_t b = reader.neighbour(slot), c = reader.neighbour(next);
+      if (node < b && node < c) triangles.insert(triangles.end(), {node, b, c});
+      if (slot == end) break;
     }
-  };
-  const int threads = pstripack::threads_for(n);
-  std::vector<std::size_t> before(static_cast<std::size_t>(threads) + 1);
-  pstripack::parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int piece) {
-    std::size_t count = 0;
-    for_each(first, last, [&](std::int32_t, std::int32_t, std::int32_t) { ++count; });
-    before[static_cast<std::size_t>(piece) + 1] = count;
-  });
-  std::partial_sum(before.begin(), before.end(), before.begin());
-  if (before.back() != mesh.triangles()) throw NoMesh("the lists are broken");
-  std::vector<std::int32_t> triangles(3 * before.back());
-  pstripack::parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int piece) {
-    std::int32_t* to = triangles.data() + 3 * before[static_cast<std::size_t>(piece)];
-    for_each(first, last,
-             [&](std::int32_t a, std::int32_t b, std::int32_t c) { *to++ = a, *to++ = b, *to++ = c; });
-  });
+  }
+  if (triangles.size() != 3 * mesh.triangles()) throw NoMesh("the lists are broken");
   return triangles;
 }
 
@@ -301,44 +286,17 @@ std::vector<Point> unit(const std::vector<Point>& points) {
 
 namespace {
 
-/// Calls visit(t, a, b, c) for all triangles, on threads.
-template <class Visit>
-void for_each_triangle(const std::vector<std::int32_t>& triangles, const Visit& visit) {
-  const std::size_t count = triangles.size() / 3;
-  pstripack::parallel_pieces(
-      count, pstripack::threads_for(4 * count), [&](std::size_t first, std::size_t last, int) {
-        for (std::size_t t = first; t < last; ++t)
-          visit(t, triangles[3 * t] - 1, triangles[3 * t + 1] - 1, triangles[3 * t + 2] - 1);
-      });
-}
-
-}  // namespace
-
-std::vector<Point> circumcentres(const std::vector<Point>& points,
-                                 const std::vector<std::int32_t>& triangles) {
-  std::vector<Point> centres(triangles.size() / 3);
-  const pstripack::Directions nodes(points.data(), points.size());
-  for_each_triangle(triangles, [&](std::size_t t, pstripack::index_t a, pstripack::index_t b,
-                                   pstripack::index_t c) { centres[t] = circumcentre(nodes, a, b, c); });
-  return centres;
-}
-
-std::size_t Faces::most_corners() const {
-  std::size_t most = 0;
-  for (std::size_t f = 0; f < size(); ++f) most = std::max(most, corners(f));
-  return most;
-}
-
-namespace {
-
 /// measure(nodes, a, b, c) of all triangles, on threads.
 template <class Measure>
-std::vector<double> measures_of(const std::vector<Point>& points, const std::vector<std::int32_t>& triangles,
-                                const Measure& measure) {
-  std::vector<double> all(triangles.size() / 3);
+auto measures_of(const std::vector<Point>& points, const std::vector<std::int32_t>& triangles,
+                 const Measure& measure) {
   const pstripack::Directions nodes(points.data(), points.size());
-  for_each_triangle(triangles, [&](std::size_t t, pstripack::index_t a, pstripack::index_t b,
-                                   pstripack::index_t c) { all[t] = measure(nodes, a, b, c); });
+  std::vector<decltype(measure(nodes, 0, 0, 0))> all(triangles.size() / 3);
+  pstripack::parallel_pieces(
+      all.size(), pstripack::threads_for(4 * all.size()), [&](std::size_t first, std::size_t last, int) {
+        for (std::size_t t = first; t < last; ++t)
+          all[t] = measure(nodes, triangles[3 * t] - 1, triangles[3 * t + 1] - 1, triangles[3 * t + 2] - 1);
+      });
   return all;
 }
 
@@ -354,6 +312,17 @@ Faces faces_of(const std::vector<Point>& points, const std::vector<std::int32_t>
 }
 
 }  // namespace
+
+std::vector<Point> circumcentres(const std::vector<Point>& points,
+                                 const std::vector<std::int32_t>& triangles) {
+  return measures_of(points, triangles, [](const auto&... nodes) { return circumcentre(nodes...); });
+}
+
+std::size_t Faces::most_corners() const {
+  std::size_t most = 0;
+  for (std::size_t f = 0; f < size(); ++f) most = std::max(most, corners(f));
+  return most;
+}
 
 Faces triangle_faces(const Mesh& mesh) {
   Faces faces = faces_of(mesh.points, triangles_to_write(mesh));
@@ -477,8 +446,6 @@ Faces voronoi_faces(const Mesh& mesh, bool with_corners) {
 }
 
 std::vector<double> areas(const Faces& faces) {
-  constexpr std::size_t kAhead = 30;  // prefetch: corners lie anywhere in memory
-  const std::size_t corners = faces.corner.size();
   std::vector<double> all(faces.size());
   const auto point = [&](std::size_t k) {
     return faces.points[static_cast<std::size_t>(faces.corner[k]) - 1];
@@ -491,8 +458,6 @@ std::vector<double> areas(const Faces& faces) {
             continue;
           }
           const std::size_t begin = faces.begin[f], end = faces.begin[f + 1];
-          for (std::size_t k = begin + kAhead; k < std::min(end + kAhead, corners); ++k)
-            __builtin_prefetch(&faces.points[static_cast<std::size_t>(faces.corner[k]) - 1]);
           // Parts of a cell may be far from its node, and small.
           const auto is_small = [&] {
             for (std::size_t k = begin; k < end; ++k)

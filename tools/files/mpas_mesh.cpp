@@ -181,34 +181,16 @@ std::vector<Index> order_of_converter(const std::vector<std::uint32_t>& hash) {
 
 /// Sets the cells and vertices of all edges. They are found cell by cell, each at its first cell.
 void find_edges(MpasMesh& mesh) {
-  const std::size_t n = mesh.cells.size();
   std::vector<Two> cells, vertices;
-  {
-    const int threads = threads_for(10 * n);
-    const auto for_each_new = [&](std::size_t first, std::size_t last, const auto& take) {
-      for (std::size_t c = first; c < last; ++c) {
-        const Index* const ring = mesh.vertices_on_cell.data() + mesh.begin[c];
-        for (std::size_t k = 0; k < mesh.sides(c); ++k) {
-          const Three& around = mesh.cells_on_vertex[at(ring[k])];
-          const auto cell = static_cast<Index>(c), other = around[(place_of(cell, around) + 2) % 3];
-          if (other == kNone || other > cell)
-            take(Two{cell, other}, Two{ring[k], ring[k + 1 < mesh.sides(c) ? k + 1 : 0]});
-        }
-      }
-    };
-    std::vector<std::size_t> before(at(threads) + 1);
-    parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int piece) {
-      std::size_t count = 0;
-      for_each_new(first, last, [&](const Two&, const Two&) { ++count; });
-      before[at(piece) + 1] = count;
-    });
-    std::partial_sum(before.begin(), before.end(), before.begin());
-    cells.resize(before.back());
-    vertices.resize(before.back());
-    parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int piece) {
-      std::size_t i = before[at(piece)];
-      for_each_new(first, last, [&](const Two& c, const Two& v) { cells[i] = c, vertices[i++] = v; });
-    });
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const Index* const ring = mesh.vertices_on_cell.data() + mesh.begin[c];
+    for (std::size_t k = 0; k < mesh.sides(c); ++k) {
+      const Three& around = mesh.cells_on_vertex[at(ring[k])];
+      const auto cell = static_cast<Index>(c), other = around[(place_of(cell, around) + 2) % 3];
+      if (other != kNone && other < cell) continue;
+      cells.push_back({cell, other});
+      vertices.push_back({ring[k], ring[k + 1 < mesh.sides(c) ? k + 1 : 0]});
+    }
   }
   std::vector<std::uint32_t> hash(cells.size());
   for_each(hash.size(), [&](std::size_t i) { hash[i] = hash_of(vertices[i]); });

@@ -1,7 +1,6 @@
 #include "files/near_nodes.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/parallel_for.h"
 #include "geometry/measures.h"
@@ -33,21 +32,12 @@ NearNeighbours near_neighbours(const pstripack::ListsView<std::int32_t>& lists,
                                const std::vector<Point>& points, double within) {
   const pstripack::ListReader<std::int32_t> reader(lists);
   const int threads = pstripack::threads_for(points.size());
-  // One coordinate of each direction, along an oblique axis, tells most pairs apart. In floats, which stay in
-  // the cache; the error of each is below 2^-23.
-  std::vector<float> height(points.size());
-  pstripack::parallel_pieces(points.size(), threads, [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t i = begin; i < end; ++i)
-      height[i] = static_cast<float>(dot(unit(points[i]), {0.36, 0.48, 0.8}));
-  });
-  const auto reach = static_cast<float>(within + 0x1p-21);
   std::vector<NearNeighbours> found(static_cast<std::size_t>(threads));
   pstripack::parallel_pieces(points.size(), threads, [&](std::size_t begin, std::size_t end, int piece) {
     NearNeighbours& here = found[static_cast<std::size_t>(piece)];
     for (std::size_t i = begin; i < end; ++i)
       for_each_neighbour(reader, i, [&](std::size_t j) {
-        if (j < i || std::fabs(height[i] - height[j]) > reach || !is_near(points[i], points[j], within))
-          return;
+        if (j < i || !is_near(points[i], points[j], within)) return;
         if (here.pairs++ == 0 || (here.first == i && j < here.second)) here.first = i, here.second = j;
       });
   });

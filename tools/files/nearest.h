@@ -1,14 +1,34 @@
 #pragma once
-// Words for messages: suggestions and lists.
+// Words: in lists, and for messages.
 
 #include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
 
+#include "numbers.h"
 #include "text_file.h"
 
 namespace files {
+
+/// The parts of a text between separators, also empty ones.
+inline std::vector<std::string> parts_of(const std::string& text, char separator) {
+  std::vector<std::string> parts(1);
+  for (const char c : text)
+    if (c == separator)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  return parts;
+}
+
+/// Finite numbers between separators; none if a part is no number.
+inline std::vector<double> numbers_between(const std::string& text, char separator) {
+  std::vector<double> numbers;
+  for (const std::string& part : parts_of(text, separator))
+    if (!point_sets::parse(part, numbers.emplace_back())) return {};
+  return numbers;
+}
 
 /// Edit distance: the fewest insertions, deletions, replacements and exchanges of neighbouring letters that
 /// turn `a` into `b`.

@@ -4,9 +4,7 @@
 
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "files/limited_area.h"
@@ -53,49 +51,6 @@ void write_graph(const OutputFile& file, const MpasMesh& mesh) {
   out.close();
 }
 
-/// A file whose variables are functions of the row: first all are defined, then all are written.
-class Variables {
- public:
-  explicit Variables(const OutputFile& file) : out(file, NC_64BIT_DATA) {}
-
-  struct Dimension {
-    int id;
-    std::size_t length;
-  };
-  Dimension dimension(const char* name, std::size_t length) { return {out.dimension(name, length), length}; }
-
-  /// row(i, values) sets the values of row i, which are 0 before.
-  template <class Value, class Row>
-  void table(const char* name, const Dimension& rows, const Dimension& width, const Row& row) {
-    const int id = out.variable(name, type_of<Value>(), {rows.id, width.id});
-    writing_.emplace_back([=] { out.put_rows<Value>({id}, rows.length, width.length, row); });
-  }
-  /// Several variables with a value in each row: row(i, values) sets those of all.
-  template <class Value, class Row>
-  void columns(const std::vector<std::string>& names, const Dimension& rows, const Row& row) {
-    std::vector<int> ids;
-    for (const std::string& name : names) {
-      ids.push_back(out.variable(name.c_str(), type_of<Value>(), {rows.id}));
-      if (name.rfind("lon", 0) == 0 || name.rfind("lat", 0) == 0) out.attribute(ids.back(), "units", "rad");
-    }
-    writing_.emplace_back([=] { out.put_rows<Value>(ids, rows.length, 1, row); });
-  }
-  void write() {
-    out.end_definitions();
-    for (const auto& write_one : writing_) write_one();
-    out.close();
-  }
-
-  NetcdfWriter out;
-
- private:
-  template <class Value>
-  static constexpr int type_of() {
-    return std::is_same_v<Value, double> ? NC_DOUBLE : NC_INT;
-  }
-  std::vector<std::function<void()>> writing_;
-};
-
 /// Least over largest; 0 if all are 0.
 template <class Number>
 double evenness(std::size_t count, const Number& number) {
@@ -123,49 +78,53 @@ void write(const OutputFile& file, const MpasMesh& mesh, const MpasValues& value
   using Index = MpasMesh::Index;
   const auto at = [](Index i) { return static_cast<std::size_t>(i); };
   const double radius = values.radius, square = radius * radius;
-  Variables to(file);
-  const Variables::Dimension cells = to.dimension("nCells", mesh.cells.size()),
-                             edges = to.dimension("nEdges", mesh.cells_on_edge.size()),
-                             vertices = to.dimension("nVertices", mesh.vertices.size()),
-                             sides = to.dimension("maxEdges", mesh.most_sides()),
-                             around = to.dimension("maxEdges2", 2 * mesh.most_sides()),
-                             two = to.dimension("TWO", 2), three = to.dimension("vertexDegree", 3);
-  to.out.dimension("Time", NC_UNLIMITED);
-  to.out.attribute(NC_GLOBAL, "on_a_sphere", "YES");
-  to.out.attribute(NC_GLOBAL, "sphere_radius", radius);
-  to.out.attribute(NC_GLOBAL, "is_periodic", "NO");
-  to.out.attribute(NC_GLOBAL, "mesh_spec", "1.0");
-  to.out.attribute(NC_GLOBAL, "Conventions", "MPAS");
-  to.out.attributes(values.notes);
-  to.out.attribute(NC_GLOBAL, "source", "pstripack");
-  to.out.attribute(NC_GLOBAL, "file_id", file_id_of(mesh, radius));
+  NetcdfWriter out(file, NC_64BIT_DATA);
+  const int cells = out.dimension("nCells", mesh.cells.size()),
+            edges = out.dimension("nEdges", mesh.cells_on_edge.size()),
+            vertices = out.dimension("nVertices", mesh.vertices.size()),
+            sides = out.dimension("maxEdges", mesh.most_sides()),
+            around = out.dimension("maxEdges2", 2 * mesh.most_sides()), two = out.dimension("TWO", 2),
+            three = out.dimension("vertexDegree", 3);
+  out.dimension("Time", NC_UNLIMITED);
+  out.attribute(NC_GLOBAL, "on_a_sphere", "YES");
+  out.attribute(NC_GLOBAL, "sphere_radius", radius);
+  out.attribute(NC_GLOBAL, "is_periodic", "NO");
+  out.attribute(NC_GLOBAL, "mesh_spec", "1.0");
+  out.attribute(NC_GLOBAL, "Conventions", "MPAS");
+  out.attributes(values.notes);
+  out.attribute(NC_GLOBAL, "source", "pstripack");
+  out.attribute(NC_GLOBAL, "file_id", file_id_of(mesh, radius));
+
+  const auto in_radians = [&](const std::vector<int>& variables) {  // the first two: latitudes, longitudes
+    for (int k = 0; k < 2; ++k) out.attribute(variables[static_cast<std::size_t>(k)], "units", "rad");
+  };
 
   // Of a cell.
   const LonLat given = values.given.empty() ? LonLat() : angles_of(mesh.cells, values.given, false);
   const std::vector<double>& density = values.density;
   const double densest =
       density.empty() ? 1 : std::max(1.0, *std::max_element(density.begin(), density.end()));
-  to.columns<double>({"latCell", "lonCell", "xCell", "yCell", "zCell", "areaCell", "meshDensity",
-                      "gridSpacing", "cellQuality"},
-                     cells, [&](std::size_t c, double* value) {
-                       double* next = put_place(mesh.cells[c], radius, value);
-                       if (!given.empty()) value[0] = given.lat[c], value[1] = from_0(given.lon[c]);
-                       *next++ = square * mesh.areas[c];
-                       *next++ = density.empty() ? 1 : density[c] / densest;
-                       double sum = 0;
-                       for (std::size_t j = 0; j < mesh.sides(c); ++j)
-                         sum += mesh.distances[at(mesh.edges_on_cell[mesh.row(c, j)])];
-                       *next++ = radius * sum / static_cast<double>(mesh.sides(c));
-                       *next++ = evenness(mesh.sides(c), [&](std::size_t j) {
-                         return std::fabs(mesh.outflows[mesh.row(c, j)]);
-                       });
-                     });
-  to.columns<Index>({"indexToCellID", "nEdgesOnCell"}, cells, [&](std::size_t c, Index* value) {
+  in_radians(out.rows<double>({"latCell", "lonCell", "xCell", "yCell", "zCell", "areaCell", "meshDensity",
+                               "gridSpacing", "cellQuality"},
+                              {cells}, {}, [&](std::size_t c, double* value) {
+                                double* next = put_place(mesh.cells[c], radius, value);
+                                if (!given.empty()) value[0] = given.lat[c], value[1] = from_0(given.lon[c]);
+                                *next++ = square * mesh.areas[c];
+                                *next++ = density.empty() ? 1 : density[c] / densest;
+                                double sum = 0;
+                                for (std::size_t j = 0; j < mesh.sides(c); ++j)
+                                  sum += mesh.distances[at(mesh.edges_on_cell[mesh.row(c, j)])];
+                                *next++ = radius * sum / static_cast<double>(mesh.sides(c));
+                                *next++ = evenness(mesh.sides(c), [&](std::size_t j) {
+                                  return std::fabs(mesh.outflows[mesh.row(c, j)]);
+                                });
+                              }));
+  out.rows<Index>({"indexToCellID", "nEdgesOnCell"}, {cells}, {}, [&](std::size_t c, Index* value) {
     value[0] = static_cast<Index>(c + 1);
     value[1] = static_cast<Index>(mesh.sides(c));
   });
   const auto of_sides = [&](const char* name, const auto& index) {
-    to.table<Index>(name, cells, sides, [=, &mesh](std::size_t c, Index* value) {
+    out.rows<Index>({name}, {cells, sides}, {}, [=, &mesh](std::size_t c, Index* value) {
       for (std::size_t j = 0; j < mesh.sides(c); ++j) value[j] = index(mesh.row(c, j), c) + 1;
     });
   };
@@ -175,64 +134,65 @@ void write(const OutputFile& file, const MpasMesh& mesh, const MpasValues& value
   of_sides("verticesOnCell", [&](std::size_t row, std::size_t) { return mesh.vertices_on_cell[row]; });
 
   // Of an edge.
-  to.columns<double>({"latEdge", "lonEdge", "xEdge", "yEdge", "zEdge", "angleEdge", "dcEdge", "dvEdge"},
-                     edges, [&](std::size_t e, double* value) {
-                       double* next = put_place(mesh.edge_point(e), radius, value);
-                       *next++ = mesh.angle(e);
-                       *next++ = radius * mesh.distances[e];
-                       *next++ = radius * mesh.width(e);
-                     });
-  to.columns<Index>({"indexToEdgeID", "nEdgesOnEdge"}, edges, [&](std::size_t e, Index* value) {
+  in_radians(
+      out.rows<double>({"latEdge", "lonEdge", "xEdge", "yEdge", "zEdge", "angleEdge", "dcEdge", "dvEdge"},
+                       {edges}, {}, [&](std::size_t e, double* value) {
+                         double* next = put_place(mesh.edge_point(e), radius, value);
+                         *next++ = mesh.angle(e);
+                         *next++ = radius * mesh.distances[e];
+                         *next++ = radius * mesh.width(e);
+                       }));
+  out.rows<Index>({"indexToEdgeID", "nEdgesOnEdge"}, {edges}, {}, [&](std::size_t e, Index* value) {
     value[0] = static_cast<Index>(e + 1);
     for (const Index c : mesh.cells_on_edge[e])
       if (c != MpasMesh::kNone) value[1] += static_cast<Index>(mesh.sides(at(c))) - 1;
   });
-  const auto indices = [&](const char* name, const Variables::Dimension& rows,
-                           const Variables::Dimension& width, const auto& table) {
-    to.table<Index>(name, rows, width, [&](std::size_t i, Index* value) {
+  const auto indices = [&](const char* name, int rows, int width, const auto& table) {
+    out.rows<Index>({name}, {rows, width}, {}, [&](std::size_t i, Index* value) {
       for (const Index index : table[i]) *value++ = index + 1;
     });
   };
   indices("cellsOnEdge", edges, two, mesh.cells_on_edge);
   indices("verticesOnEdge", edges, two, mesh.vertices_on_edge);
-  to.table<Index>("edgesOnEdge", edges, around, [&](std::size_t e, Index* value) {
+  out.rows<Index>({"edgesOnEdge"}, {edges, around}, {}, [&](std::size_t e, Index* value) {
     mesh.for_each_around(e, [&](Index other, double) { *value++ = other + 1; });
   });
-  to.table<double>("weightsOnEdge", edges, around, [&](std::size_t e, double* value) {
+  out.rows<double>({"weightsOnEdge"}, {edges, around}, {}, [&](std::size_t e, double* value) {
     mesh.for_each_around(e, [&](Index, double weight) { *value++ = weight; });
   });
 
   // Of a vertex.
-  to.columns<double>({"latVertex", "lonVertex", "xVertex", "yVertex", "zVertex", "areaTriangle",
-                      "triangleQuality", "triangleAngleQuality"},
-                     vertices, [&](std::size_t v, double* value) {
-                       double* next = put_place(mesh.vertices[v], radius, value);
-                       *next++ = square * mesh.triangle_area(v);
-                       const MpasMesh::Three& around_v = mesh.edges_on_vertex[v];
-                       *next++ = evenness(around_v[2] == MpasMesh::kNone ? 2 : 3,
-                                          [&](std::size_t j) { return mesh.distances[at(around_v[j])]; });
-                       if (mesh.is_at_boundary(v)) return;
-                       const pstripack::Angles angles = mesh.angles(v);
-                       *next = evenness(3, [&](std::size_t j) { return angles.at[j]; });
-                     });
-  to.columns<Index>({"indexToVertexID", "boundaryVertex", "obtuseTriangle"}, vertices,
-                    [&](std::size_t v, Index* value) {
-                      value[0] = static_cast<Index>(v + 1);
-                      value[1] = mesh.is_at_boundary(v);
-                      value[2] = !mesh.is_at_boundary(v) && !mesh.angles(v).are_acute;
-                    });
+  in_radians(out.rows<double>({"latVertex", "lonVertex", "xVertex", "yVertex", "zVertex", "areaTriangle",
+                               "triangleQuality", "triangleAngleQuality"},
+                              {vertices}, {}, [&](std::size_t v, double* value) {
+                                double* next = put_place(mesh.vertices[v], radius, value);
+                                *next++ = square * mesh.triangle_area(v);
+                                const MpasMesh::Three& around_v = mesh.edges_on_vertex[v];
+                                *next++ =
+                                    evenness(around_v[2] == MpasMesh::kNone ? 2 : 3,
+                                             [&](std::size_t j) { return mesh.distances[at(around_v[j])]; });
+                                if (mesh.is_at_boundary(v)) return;
+                                const pstripack::Angles angles = mesh.angles(v);
+                                *next = evenness(3, [&](std::size_t j) { return angles.at[j]; });
+                              }));
+  out.rows<Index>({"indexToVertexID", "boundaryVertex", "obtuseTriangle"}, {vertices}, {},
+                  [&](std::size_t v, Index* value) {
+                    value[0] = static_cast<Index>(v + 1);
+                    value[1] = mesh.is_at_boundary(v);
+                    value[2] = !mesh.is_at_boundary(v) && !mesh.angles(v).are_acute;
+                  });
   indices("cellsOnVertex", vertices, three, mesh.cells_on_vertex);
   indices("edgesOnVertex", vertices, three, mesh.edges_on_vertex);
-  to.table<double>("kiteAreasOnVertex", vertices, three, [&](std::size_t v, double* value) {
+  out.rows<double>({"kiteAreasOnVertex"}, {vertices, three}, {}, [&](std::size_t v, double* value) {
     for (const double area : mesh.kites(v)) *value++ = square * area;
   });
 
   // In a limited area: the least number of the cells.
   const std::vector<Index>& layers = values.layers;
   if (!layers.empty()) {
-    to.columns<Index>({kBdyMaskCell}, cells, [&](std::size_t c, Index* value) { *value = layers[c]; });
-    const auto least = [&](const char* name, const Variables::Dimension& rows, const auto& cells_on) {
-      to.columns<Index>({name}, rows, [&](std::size_t i, Index* value) {
+    out.rows<Index>({kBdyMaskCell}, {cells}, {}, [&](std::size_t c, Index* value) { *value = layers[c]; });
+    const auto least = [&](const char* name, int rows, const auto& cells_on) {
+      out.rows<Index>({name}, {rows}, {}, [&](std::size_t i, Index* value) {
         *value = kLayers;
         for (const Index c : cells_on[i])
           if (c != MpasMesh::kNone) *value = std::min(*value, layers[at(c)]);
@@ -241,7 +201,7 @@ void write(const OutputFile& file, const MpasMesh& mesh, const MpasValues& value
     least("bdyMaskEdge", edges, mesh.cells_on_edge);
     least("bdyMaskVertex", vertices, mesh.cells_on_vertex);
   }
-  to.write();
+  out.write();
 }
 
 /// MESH.graph.info beside MESH.nc or MESH.mpas.nc.

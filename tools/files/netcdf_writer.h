@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -24,10 +25,13 @@
 
 namespace files {
 
-/// A NetCDF file being written: first all definitions, then the values. If another process has begun the
-/// file, the definitions are looked up and this process adds its rows.
+/// A NetCDF file being written: variables are defined with the functions that give their values, which
+/// write() then calls. If another process has begun the file, the definitions are looked up and this process
+/// adds its rows.
 class NetcdfWriter {
  public:
+  using Dimensions = std::vector<int>;
+
   explicit NetcdfWriter(const OutputFile& file, int kind = NC_NETCDF4 | NC_CLASSIC_MODEL)
       : name_(file.name()), is_begun_(file.is_begun()) {
     if (is_begun_) {
@@ -44,85 +48,100 @@ class NetcdfWriter {
   NetcdfWriter& operator=(const NetcdfWriter&) = delete;
 
   /// Defines a dimension. `length`: number of rows of this process.
-  int dimension(const char* name, std::size_t length, const Share& share = {}) {
+  int dimension(const std::string& name, std::size_t length, const Share& share = {}) {
     int dimension = 0;
-    check(is_begun_ ? nc_inq_dimid(id_, name, &dimension)
-                    : nc_def_dim(id_, name, share.total(length), &dimension));
+    check(is_begun_ ? nc_inq_dimid(id_, name.c_str(), &dimension)
+                    : nc_def_dim(id_, name.c_str(), share.total(length), &dimension));
     rows_[dimension] = {share.before, length};
     names_.insert(name);
     return dimension;
   }
-  int variable(const char* name, nc_type type, const std::vector<int>& dimensions) {
+  /// Defines a variable without values.
+  int define(const std::string& name, nc_type type, const Dimensions& dimensions,
+             const Notes& attributes = {}) {
     int variable = 0;
-    check(is_begun_ ? nc_inq_varid(id_, name, &variable)
-                    : nc_def_var(id_, name, type, static_cast<int>(dimensions.size()), dimensions.data(),
-                                 &variable));
+    check(is_begun_ ? nc_inq_varid(id_, name.c_str(), &variable)
+                    : nc_def_var(id_, name.c_str(), type, static_cast<int>(dimensions.size()),
+                                 dimensions.data(), &variable));
     dimensions_[variable] = dimensions;
     names_.insert(name);
+    for (const auto& [attribute_name, text] : attributes) attribute(variable, attribute_name.c_str(), text);
     return variable;
   }
-  /// Defines longitudes and latitudes with the units degrees_east and degrees_north that CF requires.
-  std::pair<int, int> lon_lat(const char* lon_name, const char* lat_name, const std::vector<int>& of_lon,
-                              const std::vector<int>& of_lat) {
-    const int lon = angle(lon_name, of_lon, "degrees_east"), lat = angle(lat_name, of_lat, "degrees_north");
-    attribute(lon, "standard_name", "longitude");
-    attribute(lat, "standard_name", "latitude");
-    return {lon, lat};
+  /// Defines a variable of double or std::int32_t. `values`: this process's rows, which must outlive the
+  /// writer, or a function that returns them.
+  template <class Value>
+  int variable(const std::string& name, const Dimensions& dimensions, const Notes& attributes,
+               const std::vector<Value>& values) {
+    const int id = define(name, type_of<Value>(), dimensions, attributes);
+    writing_.emplace_back([this, id, &values] { put(id, values.data()); });
+    return id;
   }
-  /// Defines the density of the nodes. Nothing if `values` is empty.
-  int density(const std::vector<double>& values, int nodes) {
-    return values.empty() ? -1 : variable("meshDensity", NC_DOUBLE, {nodes});
+  template <class Value>
+  int variable(const std::string&, const Dimensions&, const Notes&, std::vector<Value>&&) = delete;
+  template <class Values>
+  int variable(const std::string& name, const Dimensions& dimensions, const Notes& attributes,
+               const Values& values) {
+    const int id = define(name, type_of<typename decltype(values())::value_type>(), dimensions, attributes);
+    writing_.emplace_back([this, id, values] { put(id, values().data()); });
+    return id;
+  }
+  /// Defines longitudes and latitudes, in degrees, with the units that CF requires.
+  void lon_lat(const std::string& lon, const std::string& lat, int of_lon, int of_lat,
+               const std::vector<double>& lons, const std::vector<double>& lats) {
+    variable(lon, {of_lon}, {{"units", "degrees_east"}, {"standard_name", "longitude"}}, lons);
+    variable(lat, {of_lat}, {{"units", "degrees_north"}, {"standard_name", "latitude"}}, lats);
+  }
+  /// Defines the vectors as three variables.
+  void components(const std::array<std::string, 3>& names, int dimension, const Notes& attributes,
+                  const std::vector<Point>& points) {
+    constexpr double Point::*kComponents[] = {&Point::x, &Point::y, &Point::z};
+    for (std::size_t k = 0; k < 3; ++k)
+      variable(names[k], {dimension}, attributes, [&points, component = kComponents[k]] {
+        std::vector<double> values(points.size());
+        for (std::size_t i = 0; i < points.size(); ++i) values[i] = points[i].*component;
+        return values;
+      });
+  }
+  /// Defines the density of the nodes, if it is not empty.
+  void density(const std::vector<double>& values, int nodes, const Notes& attributes = {}) {
+    if (!values.empty()) variable("meshDensity", {nodes}, attributes, values);
   }
   /// Defines a variable with these dimensions for each column, numbers or texts of equal length. Renames
   /// columns whose names are taken. `of_mesh`: attributes of each variable.
-  std::vector<int> columns(const Columns& all, const std::vector<int>& dimensions, const Notes& of_mesh) {
-    std::vector<int> ids;
+  void columns(const Columns& all, const Dimensions& dimensions, const Notes& of_mesh) {
     for (const Column& c : all) {
       const std::string name = free_name(c.name);
-      std::vector<int> shape = dimensions;
+      Dimensions shape = dimensions;
       if (c.is_text()) {
         expect_short_texts(c);
-        shape.push_back(dimension((name + "_length").c_str(), longest(c)));
+        shape.push_back(dimension(name + "_length", longest(c)));
       }
-      const int id = variable(name.c_str(), c.is_text() ? NC_CHAR : c.whole ? NC_INT : NC_DOUBLE, shape);
+      const int id = define(name, c.is_text() ? NC_CHAR : c.whole ? NC_INT : NC_DOUBLE, shape);
       const bool renamed = name != c.name && c.long_name.empty();
       if (renamed || !c.long_name.empty()) attribute(id, "long_name", renamed ? c.name : c.long_name);
       if (!c.units.empty()) attribute(id, "units", c.units);
       if (!c.is_text() && !c.whole) attribute(id, "_FillValue", NC_FILL_DOUBLE);
       for (const auto& [attribute_name, text] : of_mesh) attribute(id, attribute_name.c_str(), text);
-      ids.push_back(id);
+      writing_.emplace_back([this, id, &c] { put_column(id, c); });
     }
+  }
+  /// Defines variables of one shape, at most 16 if they have one dimension, else one: row(i, values) sets the
+  /// values of row i of all of them, which are 0 before, on threads; it must not throw.
+  template <class Value, class Row>
+  std::vector<int> rows(const std::vector<std::string>& names, const Dimensions& dimensions,
+                        const Notes& attributes, const Row& row) {
+    std::vector<int> ids;
+    for (const std::string& name : names)
+      ids.push_back(define(name, type_of<Value>(), dimensions, attributes));
+    const std::size_t width = dimensions.size() == 1 ? 1 : rows_.at(dimensions[1]).second;
+    const std::size_t count = rows_.at(dimensions[0]).second;
+    writing_.emplace_back([this, ids, count, width, row] { put_rows<Value>(ids, count, width, row); });
     return ids;
   }
-  void put(const std::vector<int>& ids, const Columns& all) {
-    for (std::size_t k = 0; k < ids.size(); ++k) {
-      const Column& c = all[k];
-      if (c.is_text()) {
-        const std::size_t length = longest(c);
-        std::string bytes;
-        for (std::size_t i = 0; i < c.size(); ++i) (bytes += c.texts[i]).resize((i + 1) * length);
-        const Slab slab = slab_of(ids[k]);
-        check(nc_put_vara_text(id_, ids[k], slab.start.data(), slab.count.data(), bytes.data()));
-      } else if (c.whole) {
-        put(ids[k], std::vector<std::int32_t>(c.numbers.begin(), c.numbers.end()));
-      } else if (std::any_of(c.numbers.begin(), c.numbers.end(), [](double v) { return std::isnan(v); })) {
-        std::vector<double> filled = c.numbers;
-        for (double& v : filled)
-          if (std::isnan(v)) v = NC_FILL_DOUBLE;
-        put(ids[k], filled);
-      } else {
-        put(ids[k], c.numbers);
-      }
-    }
-  }
+
   void attributes(const Notes& notes) {
     for (const auto& [name, text] : notes) attribute(NC_GLOBAL, name.c_str(), text);
-  }
-  /// Defines a variable of angles in degrees or radians.
-  int angle(const char* name, const std::vector<int>& dimensions, const char* units) {
-    const int id = variable(name, NC_DOUBLE, dimensions);
-    attribute(id, "units", units);
-    return id;
   }
   void attribute(int variable, const char* name, const std::string& text) {
     if (!is_begun_) check(nc_put_att_text(id_, variable, name, text.size(), text.data()));
@@ -133,22 +152,58 @@ class NetcdfWriter {
   void attribute(int variable, const char* name, double value) {
     if (!is_begun_) check(nc_put_att_double(id_, variable, name, NC_DOUBLE, 1, &value));
   }
-  void end_definitions() {
+
+  /// Writes all values. Must be the last call.
+  void write() {
     if (!is_begun_) check(nc_enddef(id_));
+    for (const auto& write_one : writing_) write_one();
+    check(nc_close(std::exchange(id_, -1)));
   }
-  void put(int variable, const std::vector<double>& values) {
-    const Slab slab = slab_of(variable);
-    check(nc_put_vara_double(id_, variable, slab.start.data(), slab.count.data(), values.data()));
+
+ private:
+  void check(int status) const {
+    if (status != NC_NOERR) throw std::runtime_error(name_ + ": cannot be written: " + nc_strerror(status));
   }
-  void put(int variable, const std::vector<std::int32_t>& values) {
-    const Slab slab = slab_of(variable);
-    check(nc_put_vara_int(id_, variable, slab.start.data(), slab.count.data(), values.data()));
+  template <class Value>
+  static constexpr nc_type type_of() {
+    return std::is_same_v<Value, double> ? NC_DOUBLE : NC_INT;
   }
-  /// Writes variables of `width` values a row, some rows at a time: row(i, values) sets the values of row i
-  /// of all variables, which are 0 before, on threads; it must not throw. Several variables, at most 16, have
-  /// width 1.
+  /// Writes `rows` rows of the variable, of this process's from `first` on; by default all.
+  template <class Value>
+  void put(int variable, const Value* values, std::size_t first = 0, std::size_t rows = 0) const {
+    std::vector<std::size_t> start, count;
+    for (const int dimension : dimensions_.at(variable)) {
+      const auto [before, here] = rows_.at(dimension);
+      start.push_back(before);
+      count.push_back(here);
+    }
+    if (rows > 0) start[0] += first, count[0] = rows;
+    if constexpr (std::is_same_v<Value, double>)
+      check(nc_put_vara_double(id_, variable, start.data(), count.data(), values));
+    else if constexpr (std::is_same_v<Value, char>)
+      check(nc_put_vara_text(id_, variable, start.data(), count.data(), values));
+    else
+      check(nc_put_vara_int(id_, variable, start.data(), count.data(), values));
+  }
+  void put_column(int id, const Column& c) const {
+    if (c.is_text()) {
+      const std::size_t length = longest(c);
+      std::string bytes;
+      for (std::size_t i = 0; i < c.size(); ++i) (bytes += c.texts[i]).resize((i + 1) * length);
+      put(id, bytes.data());
+    } else if (c.whole) {
+      put(id, std::vector<std::int32_t>(c.numbers.begin(), c.numbers.end()).data());
+    } else {
+      std::vector<double> filled = c.numbers;
+      for (double& v : filled)
+        if (std::isnan(v)) v = NC_FILL_DOUBLE;
+      put(id, filled.data());
+    }
+  }
+  /// Some rows at a time.
   template <class Value, class Row>
-  void put_rows(const std::vector<int>& variables, std::size_t rows, std::size_t width, const Row& row) {
+  void put_rows(const std::vector<int>& variables, std::size_t rows, std::size_t width,
+                const Row& row) const {
     const std::size_t together = variables.size() * width;
     const std::size_t most = std::min(rows, std::max<std::size_t>((std::size_t{1} << 20) / together, 1));
     std::vector<Value> values(most * together);
@@ -165,47 +220,9 @@ class NetcdfWriter {
                 values[k * most + i] = one[k];
             }
           });
-      for (std::size_t k = 0; k < variables.size(); ++k) {
-        Slab slab = slab_of(variables[k]);
-        slab.start[0] += first, slab.count[0] = count;
-        const Value* const from = values.data() + k * most;
-        if constexpr (std::is_same_v<Value, double>)
-          check(nc_put_vara_double(id_, variables[k], slab.start.data(), slab.count.data(), from));
-        else
-          check(nc_put_vara_int(id_, variables[k], slab.start.data(), slab.count.data(), from));
-      }
+      for (std::size_t k = 0; k < variables.size(); ++k)
+        put(variables[k], values.data() + k * most, first, count);
     }
-  }
-  void put(int x, int y, int z, const std::vector<Point>& points) {
-    std::vector<double> values(points.size());
-    for (const auto& [variable, component] :
-         {std::pair(x, &Point::x), std::pair(y, &Point::y), std::pair(z, &Point::z)}) {
-      for (std::size_t i = 0; i < points.size(); ++i) values[i] = points[i].*component;
-      put(variable, values);
-    }
-  }
-  void close() {
-    const int id = id_;
-    id_ = -1;
-    check(nc_close(id));
-  }
-
- private:
-  void check(int status) const {
-    if (status != NC_NOERR) throw std::runtime_error(name_ + ": cannot be written: " + nc_strerror(status));
-  }
-  /// The rows of a variable that this process writes.
-  struct Slab {
-    std::vector<std::size_t> start, count;
-  };
-  Slab slab_of(int variable) const {
-    Slab slab;
-    for (const int dimension : dimensions_.at(variable)) {
-      const auto [before, here] = rows_.at(dimension);
-      slab.start.push_back(before);
-      slab.count.push_back(here);
-    }
-    return slab;
   }
   /// NetCDF gives all texts of a column the length of the longest.
   void expect_short_texts(const Column& c) const {
@@ -226,23 +243,23 @@ class NetcdfWriter {
   }
   /// A name that NetCDF allows and no other variable has. Blanks are replaced, since some readers do not
   /// accept them.
-  std::string free_name(std::string name) {
-    const auto is_plain = [](char c) {
-      return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-    };
+  std::string free_name(std::string name) const {
+    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
     for (char& c : name)
-      if (!is_plain(c)) c = '_';
-    if (name.empty() || (name[0] >= '0' && name[0] <= '9')) name = "_" + name;
+      if (!is_digit(c) && !(c >= 'a' && c <= 'z') && !(c >= 'A' && c <= 'Z')) c = '_';
+    if (name.empty() || is_digit(name[0])) name = "_" + name;
     while (names_.count(name) > 0) name += "_given";
     return name;
   }
+
   std::string name_;
   bool is_begun_;
   int id_ = -1;
   std::map<int, std::pair<std::size_t, std::size_t>>
       rows_;                                    ///< of each dimension: rows of earlier processes, own rows
-  std::map<int, std::vector<int>> dimensions_;  ///< of each variable
+  std::map<int, Dimensions> dimensions_;        ///< of each variable
   std::set<std::string> names_;                 ///< of dimensions and variables
+  std::vector<std::function<void()>> writing_;  ///< the values
 };
 
 }  // namespace files

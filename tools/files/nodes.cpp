@@ -386,6 +386,16 @@ void refuse_foreign(const std::string& file, const std::string& contents) {
   }
 }
 
+LonLat Grid::places() const {
+  LonLat all;
+  for (const double y : lat)
+    for (const double x : lon) {
+      all.lon.push_back(x);
+      all.lat.push_back(y);
+    }
+  return all;
+}
+
 std::string Nodes::place(std::size_t i) const {
   return fmt::format("node {}", number(i)) +
          (i < lines.size() ? fmt::format(" ({} {})", lines_are, lines[i]) : "");

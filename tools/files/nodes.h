@@ -42,7 +42,6 @@ struct ReadOptions {
   std::string columns;
   /// Of NetCDF: read only slice `part` of `parts` equal slices of the nodes, which must not be a grid.
   std::size_t part = 0, parts = 1;
-  int exit_code = 1;  ///< of the program, if the NetCDF library crashes or does not end
 };
 
 /// Global attributes of a NetCDF file, or members of GeoJSON: title, history, source, institution,

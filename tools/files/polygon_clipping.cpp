@@ -590,6 +590,8 @@ class Clipper {
 
 }  // namespace
 
+void expect_no_crossing(const MapRegion& polygon) { expect_no_crossing(oriented(polygon), polygon.feature); }
+
 Faces clipped_to_polygons(const Faces& cells, const std::vector<MapRegion>& polygons) {
   std::vector<std::vector<Rings>> pieces;
   Divisions divisions;

@@ -563,10 +563,8 @@ std::vector<std::size_t> columns_named(const std::string& wanted, const TextLayo
   const std::string where = layout.header_line > 0 ? fmt::format("{}:{}", file, layout.header_line) : file;
   const auto refuse = [&](const std::string& what) { throw std::runtime_error(where + ": " + what); };
   std::vector<std::size_t> columns;
-  for (std::size_t begin = 0; begin <= wanted.size();) {
-    const std::size_t end = std::min(wanted.find(',', begin), wanted.size());
-    const std::string word(trimmed(std::string_view(wanted).substr(begin, end - begin)));
-    begin = end + 1;
+  for (const std::string& part : parts_of(wanted, ',')) {
+    const std::string word(trimmed(part));
     std::vector<std::size_t> found;
     const auto find_all = [&](const auto& is_it) {
       for (std::size_t c = 0; c < layout.names.size() && found.size() < 2; ++c)

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 
 #include "files/map_rings.h"
 
@@ -209,16 +210,46 @@ Columns table_of(const std::vector<Point>& points, const NodeValues& values) {
   return with_angles(columns, angles_of(points, values.given, true));
 }
 
-/// Quotes the text if RFC 4180 requires it. Line ends become blanks: text_table.h reads line by line.
-std::string csv_text(std::string text) {
+/// The text in double quotes; a `mark` precedes the characters `marked`.
+std::string quoted(const std::string& text, std::string_view marked, char mark) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (marked.find(c) != marked.npos) result += mark;
+    result += c;
+  }
+  return result + '"';
+}
+
+/// text_table.h reads line by line.
+std::string on_one_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  if (text.find_first_of(",;\"\t#") == text.npos && text == text.substr(0, text.find_last_not_of(' ') + 1) &&
-      text.find(' ') != 0)
-    return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
-  return quoted + '"';
+  return text;
+}
+
+/// Quotes the text if RFC 4180 requires it.
+std::string csv_text(const std::string& text) {
+  const std::string line = on_one_line(text);
+  const bool has_end_blanks = !line.empty() && (line.front() == ' ' || line.back() == ' ');
+  return has_end_blanks || line.find_first_of(",;\"\t#") != line.npos ? quoted(line, "\"", '"') : line;
+}
+
+std::string blank_text(const std::string& text) { return quoted(on_one_line(text), "\"", '"'); }
+std::string gmt_text(const std::string& text) { return quoted(on_one_line(text), "\"|\\", '\\'); }
+std::string json_text(const std::string& text) {
+  using nlohmann::json;
+  return json(text).dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+/// Row i of the column; `missing` stands for NaN.
+void print_cell(TextWriter& out, const Column& column, std::size_t i, std::string (*text)(const std::string&),
+                const char* missing) {
+  if (column.is_text())
+    out.print("{}", text(column.texts[i]));
+  else if (std::isnan(column.numbers[i]))
+    out.print("{}", missing);
+  else
+    out.print("{}", column.numbers[i]);
 }
 
 /// The header line has units in the form that text_table.h reads. A missing value is an empty cell.
@@ -233,19 +264,11 @@ void write_csv(const OutputFile& file, const Columns& table) {
   for (std::size_t i = 0; i < table[0].size(); ++i) {
     for (std::size_t k = 0; k < table.size(); ++k) {
       if (k > 0) out.print(",");
-      if (table[k].is_text())
-        out.print("{}", csv_text(table[k].texts[i]));
-      else if (!std::isnan(table[k].numbers[i]))
-        out.print("{}", table[k].numbers[i]);
+      print_cell(out, table[k], i, csv_text, "");
     }
     out.print("\n");
   }
   out.close();
-}
-
-std::string json_text(const std::string& text) {
-  using nlohmann::json;
-  return json(text).dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
 /// One line per feature (RFC 7946). `write_geometry(out, i)` writes the geometry of feature i.
@@ -262,13 +285,7 @@ void write_features(const OutputFile& file, const Columns& table, const Notes& n
     out.print("{}\n{{\"type\":\"Feature\",\"properties\":{{", i == 0 ? "" : ",");
     for (std::size_t k = 0; k < table.size(); ++k) {
       out.print("{}{}:", k == 0 ? "" : ",", names[k]);
-      const Column& c = table[k];
-      if (c.is_text())
-        out.print("{}", json_text(c.texts[i]));
-      else if (std::isfinite(c.numbers[i]))
-        out.print("{}", c.numbers[i]);
-      else
-        out.print("null");
+      print_cell(out, table[k], i, json_text, "null");
     }
     out.print("}},\"geometry\":");
     write_geometry(out, i);
@@ -278,35 +295,28 @@ void write_features(const OutputFile& file, const Columns& table, const Notes& n
   out.close();
 }
 
+/// The geometry of these parts: of `kind`, or if there are several of "Multi" and `kind`; null if there are
+/// none.
+void write_geometry(TextWriter& out, const std::string& kind, const std::vector<MapRing>& parts) {
+  if (parts.empty()) return out.print("null");
+  const bool is_one = parts.size() == 1, is_closed = kind == "Polygon";
+  out.print("{{\"type\":\"{}{}\",\"coordinates\":{}", is_one ? "" : "Multi", kind, is_one ? "" : "[");
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    out.print(k > 0 ? ",[{}" : "[{}", is_closed ? "[" : "");
+    for (std::size_t j = 0; j < parts[k].size() + (is_closed ? 1 : 0); ++j) {
+      const MapCorner& c = parts[k][j % parts[k].size()];
+      out.print(j > 0 ? ",[{},{}]" : "[{},{}]", c.x(), c.lat);
+    }
+    out.print(is_closed ? "]]" : "]");
+  }
+  out.print(is_one ? "}}" : "]}}");
+}
+
 /// Counterclockwise polygons, cut at the dateline; null if all corners coincide.
 void write_geojson(const OutputFile& file, const Faces& faces, const Notes& notes) {
   const MapLines lines(faces);
-  const auto print_ring = [](TextWriter& out, const MapRing& ring) {
-    out.print("[[");
-    for (const MapCorner& c : ring) out.print("[{},{}],", c.x(), c.lat);
-    out.print("[{},{}]]]", ring[0].x(), ring[0].lat);
-  };
-  write_features(file, table_of(faces), notes, [&](TextWriter& out, std::size_t f) {
-    const std::vector<MapRing> parts = lines.polygons(f);
-    if (parts.empty()) return out.print("null");
-    out.print("{{\"type\":\"{}\",\"coordinates\":{}", parts.size() == 1 ? "Polygon" : "MultiPolygon",
-              parts.size() == 1 ? "" : "[");
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-      if (k > 0) out.print(",");
-      print_ring(out, parts[k]);
-    }
-    out.print(parts.size() == 1 ? "}}" : "]}}");
-  });
-}
-
-/// A text as an @D line quotes it.
-std::string gmt_text(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '|' || c == '\\') quoted += '\\';
-    quoted += c == '\n' || c == '\r' ? ' ' : c;
-  }
-  return quoted + '"';
+  write_features(file, table_of(faces), notes,
+                 [&](TextWriter& out, std::size_t f) { write_geometry(out, "Polygon", lines.polygons(f)); });
 }
 
 /// GMT's multi-segment files: one segment per polygon, with values as in its OGR/GMT format.
@@ -332,12 +342,7 @@ void write_gmt(const OutputFile& file, const Faces& faces) {
     out.print(">\n# @D");
     for (std::size_t k = 0; k < table.size(); ++k) {
       if (k > 0) out.print("|");
-      if (table[k].is_text())
-        out.print("{}", gmt_text(table[k].texts[f]));
-      else if (std::isnan(table[k].numbers[f]))
-        out.print("NaN");
-      else
-        out.print("{}", table[k].numbers[f]);
+      print_cell(out, table[k], f, gmt_text, "NaN");
     }
     out.print("\n# @P\n");
     for (std::size_t k = faces.begin[f]; k <= faces.begin[f + 1]; ++k) {
@@ -459,17 +464,7 @@ void write_links(const OutputFile& file, Format format, const Mesh& mesh) {
   nodes.begin = {0};
   const MapLines lines(nodes);
   write_features(file, table, mesh.notes, [&](TextWriter& out, std::size_t i) {
-    const std::vector<MapRing> parts = lines.lines(links.nodes[2 * i], links.nodes[2 * i + 1]);
-    if (parts.empty()) return out.print("null");
-    const bool is_one = parts.size() == 1;
-    out.print("{{\"type\":\"{}\",\"coordinates\":{}", is_one ? "LineString" : "MultiLineString",
-              is_one ? "" : "[");
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-      for (std::size_t j = 0; j < parts[k].size(); ++j)
-        out.print("{}[{},{}]", j > 0 ? "," : k > 0 ? ",[" : "[", parts[k][j].lon, parts[k][j].lat);
-      out.print("]");
-    }
-    out.print(is_one ? "}}" : "]}}");
+    write_geometry(out, "LineString", lines.lines(links.nodes[2 * i], links.nodes[2 * i + 1]));
   });
 }
 
@@ -509,20 +504,6 @@ void write_nodes(const OutputFile& file, Format format, const std::vector<Point>
   out.close();
 }
 
-namespace {
-
-/// Quoted so that text_table.h reads it back.
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"') result += c;
-    result += c == '\n' ? ' ' : c;
-  }
-  return result + '"';
-}
-
-}  // namespace
-
 void write_field(const OutputFile& file, const LonLat& places, const Field& field) {
   TextWriter out(file);
   const auto name = [](const Column& c) {
@@ -533,11 +514,10 @@ void write_field(const OutputFile& file, const LonLat& places, const Field& fiel
   out.print("\n");
   for (std::size_t i = 0; i < field.value.size(); ++i) {
     out.print("{} {} {}", places.lon[i], places.lat[i], field.value.numbers[i]);
-    for (const Column& c : field.columns)
-      if (c.is_text())
-        out.print(" {}", quoted(c.texts[i]));
-      else
-        out.print(" {}", c.numbers[i]);
+    for (const Column& c : field.columns) {
+      out.print(" ");
+      print_cell(out, c, i, blank_text, "nan");
+    }
     out.print("\n");
   }
   out.close();
@@ -547,16 +527,6 @@ void write_csv_field(const OutputFile& file, const LonLat& places, const Field& 
   Columns columns{field.value};
   columns.insert(columns.end(), field.columns.begin(), field.columns.end());
   write_csv(file, with_angles(columns, places));
-}
-
-LonLat Grid::places() const {
-  LonLat all;
-  for (const double y : lat)
-    for (const double x : lon) {
-      all.lon.push_back(x);
-      all.lat.push_back(y);
-    }
-  return all;
 }
 
 }  // namespace files

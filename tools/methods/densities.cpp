@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "files/nearest.h"
 #include "methods/grid_values.h"
 #include "methods/triangulated_nodes.h"
-#include "numbers.h"
 #include "point_sets.h"
 #include "text_file.h"
 
@@ -20,38 +20,6 @@ namespace {
 using files::Point;
 
 constexpr double kPi = 3.14159265358979323846, kDegree = kPi / 180;
-
-class SampledDensity : public Density {
- public:
-  SampledDensity(const std::vector<Point>& nodes, std::vector<double> values)
-      : interpolation_(interpolation_between(nodes)), values_(std::move(values)) {}
-
-  void at(std::size_t n, const Point* p, double* value) const override {
-    thread_local std::vector<Share> shares;
-    thread_local std::int32_t near = 1;  // start near the last place; the result does not depend on it
-    if (static_cast<std::size_t>(near) > values_.size()) near = 1;  // that density had more nodes
-    for (std::size_t i = 0; i < n; ++i) {
-      value[i] = std::numeric_limits<double>::quiet_NaN();
-      if (!interpolation_.linear(p[i], near, shares)) continue;
-      double mean = 0;
-      for (const Share& s : shares) mean += s.part * values_[static_cast<std::size_t>(s.node) - 1];
-      value[i] = in_range(mean);
-    }
-  }
-
- private:
-  Interpolation interpolation_;
-  std::vector<double> values_;
-};
-
-class GridDensity : public Density {
- public:
-  explicit GridDensity(GridValues values) : values_(std::move(values)) {}
-  void at(std::size_t n, const Point* p, double* value) const override { values_.at(n, p, value); }
-
- private:
-  GridValues values_;
-};
 
 }  // namespace
 
@@ -64,14 +32,7 @@ std::unique_ptr<Density> density_of(const std::string& formula) {
   if (formula.rfind("bump", 0) != 0 || (formula.size() > 4 && formula[4] != ':'))
     fail("expected constant, bump or bump:LON,LAT,RADIUS,WIDTH,RATIO");
   if (formula.size() > 4) {
-    v.clear();
-    for (std::size_t begin = 5; begin <= formula.size();) {
-      const std::size_t end = std::min(formula.find(',', begin), formula.size());
-      double value = 0;
-      if (!point_sets::parse(formula.substr(begin, end - begin), value)) fail("expected numbers");
-      v.push_back(value);
-      begin = end + 1;
-    }
+    v = files::numbers_between(formula.substr(5), ',');
     if (v.size() != 5) fail("expected five numbers: LON,LAT,RADIUS,WIDTH,RATIO");
     if (!(std::fabs(v[1]) <= 90)) fail("LAT is beyond the pole");
     if (!(v[3] > 0)) fail("WIDTH must be positive");
@@ -82,11 +43,27 @@ std::unique_ptr<Density> density_of(const std::string& formula) {
 }
 
 std::unique_ptr<Density> density_between(const std::vector<Point>& nodes, std::vector<double> values) {
-  return std::make_unique<SampledDensity>(nodes, std::move(values));
+  const auto interpolation = std::make_shared<const Interpolation>(interpolation_between(nodes));
+  return std::make_unique<DensityBy>(
+      [interpolation, values = std::move(values)](std::size_t n, const Point* p, double* value) {
+        thread_local std::vector<Share> shares;
+        thread_local std::int32_t near = 1;  // start near the last place; the result does not depend on it
+        if (static_cast<std::size_t>(near) > values.size()) near = 1;  // that density had more nodes
+        for (std::size_t i = 0; i < n; ++i) {
+          value[i] = std::numeric_limits<double>::quiet_NaN();
+          if (!interpolation->linear(p[i], near, shares)) continue;
+          double mean = 0;
+          for (const Share& s : shares) mean += s.part * values[static_cast<std::size_t>(s.node) - 1];
+          value[i] = in_range(mean);
+        }
+      });
 }
 
 std::unique_ptr<Density> density_on_grid(const files::Grid& grid, const std::vector<double>& values) {
-  return std::make_unique<GridDensity>(GridValues(table_of(grid, values)));
+  return std::make_unique<DensityBy>(
+      [table = GridValues(table_of(grid, values))](std::size_t n, const Point* p, double* value) {
+        table.at(n, p, value);
+      });
 }
 
 }  // namespace methods

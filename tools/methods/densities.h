@@ -1,8 +1,11 @@
 #pragma once
 // Densities of centroidal Voronoi tessellations: formulas, values at nodes, values on a grid.
 
+#include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "files/nodes.h"
@@ -11,6 +14,18 @@
 namespace methods {
 
 using pstripack::scvt::Density;
+
+/// A density as a function that sets value[i] at p[i], i = 0..n-1, as Density::at() does.
+class DensityBy final : public Density {
+ public:
+  using Function = std::function<void(std::size_t n, const files::Point* p, double* value)>;
+  explicit DensityBy(Function function) : function_(std::move(function)) {}
+  using Density::at;
+  void at(std::size_t n, const files::Point* p, double* value) const override { function_(n, p, value); }
+
+ private:
+  Function function_;
+};
 
 /// "constant", or "bump" with or without ":LON,LAT,RADIUS,WIDTH,RATIO" in degrees:
 ///     (1 + (RATIO-1) (1 + tanh((RADIUS-d)/WIDTH))/2)^4

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "methods/densities.h"
 #include "point_sets.h"
 #include "scvt/front.h"
 #include "scvt/vectors.h"
@@ -60,47 +61,26 @@ class Mirror {
   double square_;
 };
 
-class MirroredDensity : public Density {
- public:
-  MirroredDensity(const Density& density, const Mirror& mirror) : density_(density), mirror_(mirror) {}
-  using Density::at;
-  void at(std::size_t n, const Point* p, double* value) const override {
-    std::vector<Point> places(p, p + n);
-    for (Point& place : places) place = mirror_(place);
-    density_.at(n, places.data(), value);
-  }
-
- private:
-  const Density& density_;
-  Mirror mirror_;
-};
-
 /// 1 within a distance from a place, where few cells need a table; elsewhere another density.
-class OneNear : public Density {
- public:
-  OneNear(const Point& place, double distance, std::unique_ptr<Density> elsewhere)
-      : place_(place), cosine_(std::cos(distance)), elsewhere_(std::move(elsewhere)) {}
-  using Density::at;
-  void at(std::size_t n, const Point* p, double* value) const override {
-    constexpr std::size_t kBatch = 256;
-    Point far[kBatch];
-    double values[kBatch];
-    for (std::size_t first = 0; first < n; first += kBatch) {
-      const std::size_t last = std::min(n, first + kBatch);
-      std::size_t count = 0;
-      for (std::size_t i = first; i < last; ++i)
-        if (!(dot(p[i], place_) > cosine_)) far[count++] = p[i];
-      elsewhere_->at(count, far, values);
-      count = 0;
-      for (std::size_t i = first; i < last; ++i) value[i] = dot(p[i], place_) > cosine_ ? 1 : values[count++];
-    }
-  }
-
- private:
-  Point place_;
-  double cosine_;
-  std::unique_ptr<Density> elsewhere_;
-};
+std::unique_ptr<Density> one_near(const Point& place, double distance, std::unique_ptr<Density> other) {
+  return std::make_unique<DensityBy>(
+      [place, cosine = std::cos(distance), elsewhere = std::shared_ptr(std::move(other))](
+          std::size_t n, const Point* p, double* value) {
+        constexpr std::size_t kBatch = 256;
+        Point far[kBatch];
+        double values[kBatch];
+        for (std::size_t first = 0; first < n; first += kBatch) {
+          const std::size_t last = std::min(n, first + kBatch);
+          std::size_t count = 0;
+          for (std::size_t i = first; i < last; ++i)
+            if (!(dot(p[i], place) > cosine)) far[count++] = p[i];
+          elsewhere->at(count, far, values);
+          count = 0;
+          for (std::size_t i = first; i < last; ++i)
+            value[i] = dot(p[i], place) > cosine ? 1 : values[count++];
+        }
+      });
+}
 
 /// How far from the place all values of the table are the least one: a cell of the grid has no longer
 /// diagonal than `diagonal` there.
@@ -121,7 +101,12 @@ double reach_of_least(const Table& table, const Point& place, double diagonal) {
 std::vector<Point> front_around(const Point& centre, std::size_t n, const Density& density) {
   const double third = 1 / std::sqrt(3.0);
   const Mirror mirror(centre, {third, third, third});  // the face of (0, 1, g), (1, g, 0), (g, 0, 1)
-  std::vector<Point> generators = pstripack::scvt::front_generators(n, MirroredDensity(density, mirror));
+  const DensityBy mirrored([&](std::size_t count, const Point* p, double* value) {
+    std::vector<Point> places(p, p + count);
+    for (Point& place : places) place = mirror(place);
+    density.at(count, places.data(), value);
+  });
+  std::vector<Point> generators = pstripack::scvt::front_generators(n, mirrored);
   for (Point& generator : generators) generator = mirror(generator);
   return files::unit(generators);
 }
@@ -189,8 +174,7 @@ RegionalWidths widths_in(const files::LimitedArea& area, const Widths& given, do
   const double reach = reach_of_least(table, regional.centre, spacing / radius);
   regional.widths = widths_of(std::move(table), radius);
   if (reach > 0)
-    regional.widths.density =
-        std::make_unique<OneNear>(regional.centre, reach, std::move(regional.widths.density));
+    regional.widths.density = one_near(regional.centre, reach, std::move(regional.widths.density));
   return regional;
 }
 

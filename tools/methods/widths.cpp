@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "files/nearest.h"
+#include "methods/densities.h"
 #include "numbers.h"
 #include "point_sets.h"
 #include "text_file.h"
@@ -20,22 +22,17 @@ using files::Point;
 
 constexpr double kPi = 3.14159265358979323846, kDegree = kPi / 180;
 
-class WidthDensity : public Density {
- public:
-  WidthDensity(Table widths, double least) : widths_(std::move(widths)), least_(least) {}
-  using Density::at;
-  void at(std::size_t n, const Point* p, double* value) const override {
-    widths_.at(n, p, value);
-    for (std::size_t i = 0; i < n; ++i) {
-      const double square = least_ / value[i] * (least_ / value[i]);
-      value[i] = std::min(1.0, square * square);  // bilinear widths round below the least
-    }
-  }
-
- private:
-  GridValues widths_;
-  double least_;
-};
+/// `widths` sets widths as DensityBy's function sets densities.
+std::unique_ptr<Density> density_of_widths(double least, DensityBy::Function widths) {
+  return std::make_unique<DensityBy>(
+      [least, widths = std::move(widths)](std::size_t n, const Point* p, double* value) {
+        widths(n, p, value);
+        for (std::size_t i = 0; i < n; ++i) {
+          const double square = least / value[i] * (least / value[i]);
+          value[i] = std::min(1.0, square * square);  // bilinear widths round below the least
+        }
+      });
+}
 
 /// The integral of 1/(sqrt(3)/2 w^2): Gauss' rule with three points along each side of a cell of the grid.
 double cells_of(const Table& t, double radius) {
@@ -176,23 +173,6 @@ class GradientLimit {
   std::priority_queue<std::pair<double, std::size_t>> queue_;  ///< minus the value, place
 };
 
-class DensityOfFormula : public Density {
- public:
-  DensityOfFormula(const WidthFormula& formula, double radius) : formula_(formula), radius_(radius) {}
-  using Density::at;
-  void at(std::size_t n, const Point* p, double* value) const override {
-    formula_.at(n, p, radius_, value);
-    for (std::size_t i = 0; i < n; ++i) {
-      const double square = formula_.least() / value[i] * (formula_.least() / value[i]);
-      value[i] = std::min(1.0, square * square);
-    }
-  }
-
- private:
-  WidthFormula formula_;
-  double radius_;
-};
-
 /// The columns of an equidistant table without its last one that lie inside the region at this latitude.
 template <class Visit>
 void for_each_inside(const files::WidthRegion& region, double lat, std::size_t columns, const Visit& visit) {
@@ -216,21 +196,12 @@ WidthFormula::WidthFormula(const std::string& text) : is_band_(text.rfind("band:
   const auto fail = [&](const std::string& what) {
     throw std::invalid_argument("width '" + point_sets::excerpt(text) + "': " + what);
   };
-  double* const numbers[] = {&inner_, &outer_, &radius_, &transition_, is_band_ ? &lat_ : &lon_, &lat_};
-  const std::size_t wanted = is_band_ ? 5 : 6;
-  std::size_t count = 0;
-  for (std::size_t begin = 5; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    double value = 0;
-    if (!point_sets::parse(text.substr(begin, end - begin), value) || !std::isfinite(value))
-      fail("expected numbers, lengths in km, angles in degrees");
-    if (count < wanted) *numbers[count] = value;
-    ++count;
-    begin = end + 1;
-  }
-  if (count != wanted)
+  const std::vector<double> numbers = files::numbers_between(text.substr(5), ',');
+  if (numbers.size() != (is_band_ ? 5 : 6))
     fail(is_band_ ? "expected five numbers: INNER,OUTER,RADIUS,TRANSITION,LAT"
                   : "expected six numbers: INNER,OUTER,RADIUS,TRANSITION,LON,LAT");
+  inner_ = numbers[0], outer_ = numbers[1], radius_ = numbers[2], transition_ = numbers[3];
+  lon_ = numbers[4], lat_ = numbers.back();
   if (!(inner_ > 0 && outer_ > 0)) fail("INNER and OUTER must be above 0");
   if (!(radius_ >= 0 && transition_ >= 0)) fail("RADIUS and TRANSITION must not be negative");
   if (!(std::fabs(lat_) <= 90)) fail("LAT is beyond the pole");
@@ -284,7 +255,11 @@ Widths WidthFormula::widths(double radius) const {
         cells += 2 * kPi * weight * half * std::sin(angle) * ratio * ratio / (std::sqrt(3) / 2);
       }
     }
-  return {std::make_unique<DensityOfFormula>(*this, radius), least(), cells};
+  return {density_of_widths(least(),
+                            [formula = *this, radius](std::size_t n, const Point* p, double* width) {
+                              formula.at(n, p, radius, width);
+                            }),
+          least(), cells};
 }
 
 Lowered limit_gradient(Table& table, double gradient, double radius) {
@@ -360,7 +335,10 @@ Table widths_of_regions(const std::vector<files::WidthRegion>& regions, const Wi
 Widths widths_of(Table km, double radius) {
   const double least = *std::min_element(km.values.begin(), km.values.end());
   const double cells = cells_of(km, radius);
-  return {std::make_unique<WidthDensity>(std::move(km), least), least, cells};
+  return {
+      density_of_widths(least, [table = GridValues(std::move(km))](std::size_t n, const Point* p,
+                                                                   double* width) { table.at(n, p, width); }),
+      least, cells};
 }
 
 double width_of(const std::string& text) {

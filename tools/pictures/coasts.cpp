@@ -1,12 +1,13 @@
 #include "pictures/coasts.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
 
 #include "point_sets.h"
@@ -27,49 +28,6 @@ std::string natural_earth(double radius, const std::string& folder) {
 
 namespace {
 
-/// The bytes of a file; every access is checked against its length.
-class Bytes {
- public:
-  explicit Bytes(const std::string& file) : file_(file) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw std::runtime_error(file + ": cannot be opened: " + std::strerror(errno));
-    bytes_.assign(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
-  }
-  std::size_t size() const { return bytes_.size(); }
-
-  std::int32_t integer(std::size_t at, bool big_endian = false) const {
-    expect(at, 4);
-    std::uint32_t value = 0;
-    for (std::size_t k = 0; k < 4; ++k) value |= byte(at + k) << 8 * (big_endian ? 3 - k : k);
-    return static_cast<std::int32_t>(value);
-  }
-  double number(std::size_t at) const {
-    expect(at, 8);
-    std::uint64_t bits = 0;
-    for (std::size_t k = 0; k < 8; ++k) bits |= std::uint64_t{byte(at + k)} << 8 * k;
-    double value;
-    std::memcpy(&value, &bits, sizeof value);
-    return value;
-  }
-  /// Reads a count at `at`; fails if so many items of `size` bytes cannot fit the file.
-  std::size_t count(std::size_t at, std::size_t size) const {
-    const std::int32_t n = integer(at);
-    if (n < 0 || static_cast<std::size_t>(n) > bytes_.size() / size) fail();
-    return static_cast<std::size_t>(n);
-  }
-  [[noreturn]] void fail() const {
-    throw std::runtime_error(file_ +
-                             ": not a shapefile (.shp) of lines or polygons in degrees, or cut short");
-  }
-
- private:
-  std::uint32_t byte(std::size_t at) const { return static_cast<unsigned char>(bytes_[at]); }
-  void expect(std::size_t at, std::size_t size) const {
-    if (at > bytes_.size() || size > bytes_.size() - at) fail();
-  }
-  std::string file_, bytes_;
-};
-
 struct Degrees {
   double lon, lat;
   bool at_pole() const { return std::fabs(lat) > 90 - 1e-6; }
@@ -87,34 +45,45 @@ bool is_cut(const Degrees& a, const Degrees& b) {
 // words (big-endian), the kind of shape, a box, counts of parts and points, the first point of each part, the
 // points.
 Lines read_shapefile(const std::string& file) {
-  constexpr std::int32_t kMagic = 9994, kNull = 0;
-  constexpr std::size_t kHeader = 100;
-  const Bytes bytes(file);
-  if (bytes.integer(0, true) != kMagic || bytes.size() < kHeader) bytes.fail();
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw std::runtime_error(file + ": cannot be opened: " + std::strerror(errno));
+  const auto require = [&](bool condition) {
+    if (!condition)
+      throw std::runtime_error(file +
+                               ": not a shapefile (.shp) of lines or polygons in degrees, or cut short");
+  };
+  const auto read = [&](auto value) {  // in this machine's byte order, little-endian
+    require(!!in.read(reinterpret_cast<char*>(&value), sizeof value));
+    return value;
+  };
+  const auto integer = [&] { return read(std::int32_t{}); };
+  constexpr int kMagic = 0x0A270000, kNull = 0, kHeader = 100;
+  require(integer() == kMagic);
   Lines lines;
-  for (std::size_t record = kHeader; record < bytes.size();) {
-    const std::int32_t words = bytes.integer(record + 4, true), kind = bytes.integer(record + 8);
-    if (words < 2) bytes.fail();
-    const std::size_t shape = record + 8;
-    record = shape + 2 * static_cast<std::size_t>(words);
-    if (kind == kNull) continue;
+  require(!!in.ignore(kHeader - 4) && !in.eof());
+  while (in.peek() != EOF) {
+    in.ignore(4);
+    const auto begin = in.tellg();
+    const auto words = static_cast<std::int32_t>(__builtin_bswap32(read(std::uint32_t{})));
+    const std::int32_t kind = integer();
     // Lines and polygons, also with heights and measures: these follow the points and are ignored.
-    if (kind % 10 != 3 && kind % 10 != 5) bytes.fail();
-    const std::size_t parts = bytes.count(shape + 36, 4), points = bytes.count(shape + 40, 16);
-    const std::size_t first = shape + 44 + 4 * parts;
-    for (std::size_t part = 0; part < parts; ++part) {
-      const std::size_t begin = bytes.count(shape + 44 + 4 * part, 16),
-                        end = part + 1 < parts ? bytes.count(shape + 48 + 4 * part, 16) : points;
-      if (begin > end || end > points) bytes.fail();
+    require(words >= 2 && (kind == kNull || kind % 10 == 3 || kind % 10 == 5));
+    if (kind != kNull) {
+      in.ignore(32);
+      const std::int32_t parts = integer(), points = integer();
+      std::vector<std::int32_t> first;
+      for (std::int32_t part = 0; part < parts; ++part) first.push_back(integer());
       Degrees last{0, 0};
-      for (std::size_t i = begin; i < end; ++i) {
-        const Degrees here{bytes.number(first + 16 * i), bytes.number(first + 16 * i + 8)};
-        if (!(std::fabs(here.lon) <= 360 && std::fabs(here.lat) <= 90 + 1e-6)) bytes.fail();
-        if (i == begin || is_cut(last, here)) lines.emplace_back();
+      for (std::int32_t i = 0; i < points; ++i) {
+        const Degrees here = read(Degrees{});
+        require(std::fabs(here.lon) <= 360 && std::fabs(here.lat) <= 90 + 1e-6);
+        if (i == 0 || std::binary_search(first.begin(), first.end(), i) || is_cut(last, here))
+          lines.emplace_back();
         lines.back().push_back(point_sets::from_degrees(here.lon, here.lat));
         last = here;
       }
     }
+    in.seekg(begin + std::streamoff{4} + 2 * std::streamoff{words});
   }
   return lines;
 }

@@ -5,8 +5,7 @@
 
 namespace pictures {
 
-/// Width of a line in DejaVu Sans, the font of all pictures, in the unit of `size`. Viewers without it use a
-/// font that is hardly wider. Non-ASCII characters count as wide ones.
+/// About the width of a line in DejaVu Sans, the font of all pictures, in the unit of `size`: rather more.
 double text_width(const std::string& utf8, double size);
 
 /// Extent of a line above and below its baseline, as fractions of the font size.

@@ -7,12 +7,11 @@
 
 namespace pictures {
 
-double draw_colour_bar(Sheet& sheet, double top, const std::string& title, const Scale& scale,
-                       const Palette& palette, bool below, bool above) {
+double draw_colour_bar(Sheet& sheet, double top, const Shading& shading, const Palette& palette) {
   constexpr int kStops = 20;
   constexpr double kHigh = 12;
   const double width = bar_width(sheet), left = (sheet.width() - width) / 2;
-  sheet.centred(top + 14, 14, title);
+  sheet.centred(top + 14, 14, shading.title);
   sheet.add("<defs><linearGradient id=\"palette\">");
   for (int k = 0; k <= kStops; ++k)
     sheet.add(fmt::format("<stop offset=\"{}\" stop-color=\"{}\"/>", k / double{kStops},
@@ -26,17 +25,17 @@ double draw_colour_bar(Sheet& sheet, double top, const std::string& title, const
     path.line({x, top + 22 + kHigh});
     sheet.path(path, fmt::format("fill=\"{}\"", palette(t)));
   };
-  if (below) point(left, -kHigh, 0);
-  if (above) point(left + width, kHigh, 1);
-  for (const Scale::Tick& tick : scale.ticks()) {
-    const double x = left + width * scale(tick.value);
+  if (shading.below) point(left, -kHigh, 0);
+  if (shading.above) point(left + width, kHigh, 1);
+  for (const Scale::Tick& tick : shading.scale->ticks()) {
+    const double x = left + width * (*shading.scale)(tick.value);
     sheet.rectangle(x - 0.5, top + 34, 1, 4, kGrey);
     sheet.text({x, top + 50}, kTickLabels, Anchor::middle, tick.label);
   }
   return top + 58;
 }
 
-double draw_shades(Sheet& sheet, double top, const std::string& title, const std::vector<Shade>& shades) {
+double draw_shades(Sheet& sheet, double top, const Shading& shading) {
   constexpr double kSquare = 14, kGap = 6, kBetween = 26, kRow = 22, kSize = 13;
   const double widest = sheet.width() - 48;
   struct Item {
@@ -46,7 +45,7 @@ double draw_shades(Sheet& sheet, double top, const std::string& title, const std
   };
   std::vector<std::vector<Item>> rows(1);
   double room = widest;
-  for (const Shade& shade : shades) {
+  for (const Shade& shade : shading.shades) {
     if (shade.count == 0) continue;
     const std::string count = fmt::format(" ({})", grouped(shade.count));
     const std::string words =
@@ -56,7 +55,7 @@ double draw_shades(Sheet& sheet, double top, const std::string& title, const std
     rows.back().push_back({&shade, words, width});
     room -= width + kBetween;
   }
-  sheet.centred(top + 14, 14, title);
+  sheet.centred(top + 14, 14, shading.title);
   top += 24;
   for (const std::vector<Item>& row : rows) {
     double width = -kBetween;

@@ -13,13 +13,11 @@ namespace pictures {
 /// The width of a colour bar, in units of the sheet.
 inline double bar_width(const Sheet& sheet) { return std::min(400.0, sheet.width() - 60); }
 
-/// A bar of the palette with the ticks of the scale. `below`, `above`: values lie beyond that end: it is
-/// pointed.
-double draw_colour_bar(Sheet& sheet, double top, const std::string& title, const Scale& scale,
-                       const Palette& palette, bool below, bool above);
+/// A bar of the palette with the ticks of the scale. An end beyond which values lie is pointed.
+double draw_colour_bar(Sheet& sheet, double top, const Shading& shading, const Palette& palette);
 
 /// A square with label and count for each shade whose count is not 0, in as many rows as needed.
-double draw_shades(Sheet& sheet, double top, const std::string& title, const std::vector<Shade>& shades);
+double draw_shades(Sheet& sheet, double top, const Shading& shading);
 
 /// A remark behind a coloured dot.
 double draw_note(Sheet& sheet, double top, const char* colour, const std::string& words);

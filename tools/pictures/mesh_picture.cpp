@@ -36,6 +36,7 @@ constexpr const char* kGraticule = "#d5dce3";
 std::size_t index(std::int32_t number) { return static_cast<std::size_t>(number) - 1; }
 
 constexpr double kLabel = 12;  ///< font size around the drawing
+constexpr auto kHowMany = " (how many nodes)";
 
 class MeshPicture {
  public:
@@ -76,14 +77,8 @@ class MeshPicture {
   Shading shading() {
     if (options_.colour == Colour::none) return {};
     faces_ = options_.what == What::cells ? files::voronoi_faces(mesh_, false) : files::triangle_faces(mesh_);
-    Shading shading;
-    shading.of_face = choose_shades();
-    if (options_.colour == Colour::owner)
-      for (std::size_t rank = 0; rank < shades_.size(); ++rank) shades_[rank].label = std::to_string(rank);
-    shading.title = title_of_legend();
-    shading.shades = std::move(shades_);
-    shading.scale = std::move(scale_);
-    return shading;
+    choose_shades();
+    return std::move(shading_);
   }
 
  private:
@@ -156,7 +151,7 @@ class MeshPicture {
         0.8 * radius_ * std::sqrt(static_cast<double>(kMostNodesInView) / static_cast<double>(count));
     throw std::runtime_error(
         fmt::format("{} nodes are in view, at most {} can be drawn: zoom in, for example by --view "
-                    "{}:{:g},{:g} --radius {:.2g}, or say --what histograms",
+                    "{}:{:g},{:g} --zoom {:.2g}",
                     grouped(count), grouped(kMostNodesInView), options_.lonlat ? "lonlat" : "orthographic",
                     centre_.lon, centre_.lat, fewer));
   }
@@ -284,8 +279,8 @@ class MeshPicture {
 
   void draw_faces() {
     if (options_.colour == Colour::none) return;
-    const std::vector<std::size_t> shade_of = choose_shades();
-    std::vector<Path> paths(shades_.size());
+    choose_shades();
+    std::vector<Path> paths(shading_.shades.size());
     std::vector<Point> corners;
     for (std::size_t f = 0; f < faces_.size(); ++f) {
       corners.clear();
@@ -294,115 +289,101 @@ class MeshPicture {
         if (corners.empty() || p != corners.back()) corners.push_back(p);
       }
       while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
-      add(view_->polygon(corners), true, paths[shade_of[f]]);
+      add(view_->polygon(corners), true, paths[shading_.of_face[f]]);
     }
     // Stroke each face in its own colour; otherwise the background shows between neighbours.
-    for (std::size_t s = 0; s < shades_.size(); ++s)
+    for (std::size_t s = 0; s < paths.size(); ++s)
       sheet_.path(paths[s],
-                  fmt::format("fill=\"{0}\" stroke=\"{0}\" stroke-width=\"0.4\"", shades_[s].colour));
+                  fmt::format("fill=\"{0}\" stroke=\"{0}\" stroke-width=\"0.4\"", shading_.shades[s].colour));
   }
 
-  /// Fills shades_; returns the shade of each face.
-  std::vector<std::size_t> choose_shades() {
+  void choose_shades() {
     switch (options_.colour) {
       case Colour::size:
-        return shades_of_size();
+        return shade_by_size();
       case Colour::degree:
-        return shades_of_degree();
+        return shade_by_degree();
       case Colour::value:
-        return shades_of_value();
+        return shade_by_value();
       default:
-        return shades_of_owner();
+        return shade_by_owner();
     }
   }
 
   /// Cells of boundary nodes have no area: they are grey.
-  std::vector<std::size_t> shades_of_size() {
+  void shade_by_size() {
     std::vector<double> area = files::areas(faces_);
     for (double& a : area) a *= files::kEarthRadius * files::kEarthRadius;
     if (options_.what == What::cells)
       for (const std::size_t node : boundary_) area[node] = NAN;
-    return shades_of_numbers(area, fmt::format("area of a {}", what()), "km²");
+    shade_by_numbers(area, fmt::format("area of a {}", what()), "km²");
   }
 
   const char* what() const { return options_.what == What::cells ? "cell" : "triangle"; }
 
-  /// Shades of a colour bar; NaN: grey. `title` and `unit` are for the legend.
-  std::vector<std::size_t> shades_of_numbers(const std::vector<double>& values, const std::string& title,
-                                             const std::string& unit) {
-    Shading shading =
-        shading_of_numbers(values, title, unit, {options_.palette, options_.range, bar_width(sheet_)});
-    below_ = shading.below, above_ = shading.above;
-    shades_ = std::move(shading.shades);
-    scale_ = std::move(shading.scale);
-    legend_ = std::move(shading.title);
-    return std::move(shading.of_face);
+  void shade_by_numbers(const std::vector<double>& values, const std::string& title,
+                        const std::string& unit) {
+    shading_ = shading_of_numbers(values, title, unit, {options_.palette, options_.range, bar_width(sheet_)});
   }
 
-  /// Shades for the values of a column. A triangle gets the mean of its corners.
-  std::vector<std::size_t> shades_of_value() {
+  /// By the values of a column. A triangle gets the mean of its corners.
+  void shade_by_value() {
     const files::Column* const column = files::find(mesh_.columns, options_.value);
     if (column == nullptr) throw std::runtime_error("no column is named " + options_.value);
-    legend_ = column->long_name.empty() ? column->name : column->long_name;
-    if (column->is_text()) return shades_of_words(column->texts);
-    if (options_.what == What::cells) return shades_of_numbers(column->numbers, legend_, column->units);
+    const std::string& title = column->long_name.empty() ? column->name : column->long_name;
+    if (column->is_text()) return shade_by_words(column->texts, title);
+    if (options_.what == What::cells) return shade_by_numbers(column->numbers, title, column->units);
     std::vector<double> means(faces_.size());
     for (std::size_t f = 0; f < means.size(); ++f)
       for (std::size_t k = faces_.begin[f]; k < faces_.begin[f + 1]; ++k)
         means[f] += column->numbers[index(faces_.corner[k])] / 3;
-    return shades_of_numbers(means, legend_, column->units);
+    shade_by_numbers(means, title, column->units);
   }
 
   /// The most frequent words have a colour each; all others share one.
-  std::vector<std::size_t> shades_of_words(const std::vector<std::string>& words) {
+  void shade_by_words(const std::vector<std::string>& words, const std::string& title) {
     if (options_.what != What::cells)
       throw std::runtime_error(fmt::format("{} is a column of words: say --what cells", options_.value));
     if (options_.range)
       throw std::runtime_error(fmt::format("{} is a column of words: it has no --range", options_.value));
     std::map<std::string, std::size_t> counts;
     for (const std::string& word : words) ++counts[word];
-    const auto missing = counts.find("");
-    const std::size_t without = missing == counts.end() ? 0 : missing->second;
-    if (missing != counts.end()) counts.erase(missing);
+    const Shade missing{kNoColour, "no value", counts[""]};
+    counts.erase("");
     std::vector<std::pair<std::string, std::size_t>> sorted(counts.begin(), counts.end());
     std::stable_sort(sorted.begin(), sorted.end(),
                      [](const auto& a, const auto& b) { return a.second > b.second; });
     const std::size_t coloured = std::min(sorted.size(), kCategories.size());
-    std::map<std::string, std::size_t> shade_of;
+    std::map<std::string, std::size_t> shade_of{{"", coloured + 1}};
     Shade others{kOtherWords, fmt::format("{} others", grouped(sorted.size() - coloured))};
     for (std::size_t i = 0; i < sorted.size(); ++i) {
       const auto& [word, count] = sorted[i];
       shade_of[word] = std::min(i, coloured);
       if (i < coloured)
-        shades_.push_back({kCategories[i], word, count});
+        shading_.shades.push_back({kCategories[i], word, count});
       else
         others.count += count;
     }
-    shades_.push_back(others);
-    shade_of[""] = shades_.size();
-    shades_.push_back({kNoColour, "no value", without});
-    std::vector<std::size_t> shade;
-    for (const std::string& word : words) shade.push_back(shade_of[word]);
-    return shade;
+    shading_.shades.push_back(others);
+    shading_.shades.push_back(missing);
+    for (const std::string& word : words) shading_.of_face.push_back(shade_of[word]);
+    shading_.title = title + kHowMany;
   }
 
-  std::vector<std::size_t> shades_of_degree() {
+  void shade_by_degree() {
+    constexpr const char* kLabels[] = {"4 or fewer", "5", "6", "7", "8 or more"};
     for (int degree = 4; degree <= 8; ++degree)
-      shades_.push_back({colour_of_degree(degree), std::to_string(degree) + (degree == 4   ? " or fewer"
-                                                                             : degree == 8 ? " or more"
-                                                                                           : "")});
-    std::vector<std::size_t> shade(faces_.size());
-    for (std::size_t f = 0; f < shade.size(); ++f) {
-      const auto node = static_cast<std::int32_t>(f) + 1;
+      shading_.shades.push_back({colour_of_degree(degree), kLabels[degree - 4]});
+    for (std::int32_t node = 1; node <= reader_.size(); ++node) {
       const std::int32_t degree = pstripack::nbcnt(reader_.last_slot(node), mesh_.lptr.data());
-      shade[f] = static_cast<std::size_t>(std::clamp(degree, 4, 8) - 4);
-      ++shades_[shade[f]].count;
+      shading_.of_face.push_back(static_cast<std::size_t>(std::clamp(degree, 4, 8) - 4));
+      ++shading_.shades[shading_.of_face.back()].count;
     }
-    return shade;
+    shading_.title = std::string("neighbours of a node") + kHowMany;
   }
 
   /// A triangle belongs to the owner of its smallest corner, as in pstripack_mesh_triangles.
-  std::vector<std::size_t> shades_of_owner() {
+  void shade_by_owner() {
     const auto ranks = static_cast<std::size_t>(options_.ranks);
     const pstripack::Partition partition =
         pstripack::partition_over_ranks(options_.partition, options_.ranks, nodes_);
@@ -415,12 +396,16 @@ class MeshPicture {
     });
     std::vector<std::vector<std::size_t>> lists;
     for (const auto& set : beside) lists.emplace_back(set.begin(), set.end());
-    for (const std::string& colour : distinct_colours(lists)) shades_.push_back({colour, ""});
-    for (const std::size_t owner : owner_) ++shades_[owner].count;
-    if (options_.what == What::cells) return owner_;
-    std::vector<std::size_t> shade(faces_.size());
-    for (std::size_t f = 0; f < shade.size(); ++f) shade[f] = owner_[index(faces_.corner[faces_.begin[f]])];
-    return shade;
+    for (const std::string& colour : distinct_colours(lists))
+      shading_.shades.push_back({colour, std::to_string(shading_.shades.size())});
+    for (const std::size_t owner : owner_) ++shading_.shades[owner].count;
+    shading_.of_face = owner_;
+    if (options_.what == What::triangles) {
+      shading_.of_face.clear();
+      for (std::size_t f = 0; f < faces_.size(); ++f)
+        shading_.of_face.push_back(owner_[index(faces_.corner[faces_.begin[f]])]);
+    }
+    shading_.title = std::string("rank that owns a node") + kHowMany;
   }
 
   template <class Visit>
@@ -464,7 +449,7 @@ class MeshPicture {
     }
     spacing_ = count == 0 ? 10 : length / static_cast<double>(count);
     const char* const colour = options_.colour == Colour::none ? kLine
-                               : scale_                        ? options_.palette->lines
+                               : shading_.scale                ? options_.palette->lines
                                                                : "#555555";
     sheet_.add(fmt::format(
         "<g fill=\"none\" stroke=\"{}\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n", colour));
@@ -556,53 +541,41 @@ class MeshPicture {
   void draw_labels() {
     const Frame& frame = view_->frame();
     constexpr double kTick = 4;
-    const auto below = [&](double x, const std::string& name) {
-      if (!sheet_.text_if_free({x, frame.bottom + 17}, kLabel, Anchor::middle, name, kGrey)) return false;
-      sheet_.rectangle(x - 0.5, frame.bottom, 1, kTick, kGrey);
+    // Each draws a label and its tick at a side of the frame, unless there is no space.
+    const auto beside = [&](double y, const std::string& name, bool left) {
+      const double x = left ? frame.left : frame.right, out = left ? -1 : 1;
+      if (!sheet_.text_if_free({x + 7 * out, y + 4}, kLabel, left ? Anchor::end : Anchor::start, name, kGrey))
+        return false;
+      sheet_.rectangle(left ? x - kTick : x, y - 0.5, kTick, 1, kGrey);
       return true;
     };
-    const auto above = [&](double x, const std::string& name) {
-      if (!sheet_.text_if_free({x, frame.top - 6}, kLabel, Anchor::middle, name, kGrey)) return false;
-      sheet_.rectangle(x - 0.5, frame.top - kTick, 1, kTick, kGrey);
-      return true;
-    };
-    const auto left_of = [&](double y, const std::string& name) {
-      if (!sheet_.text_if_free({frame.left - 7, y + 4}, kLabel, Anchor::end, name, kGrey)) return false;
-      sheet_.rectangle(frame.left - kTick, y - 0.5, kTick, 1, kGrey);
-      return true;
-    };
-    const auto right_of = [&](double y, const std::string& name) {
-      if (!sheet_.text_if_free({frame.right + 7, y + 4}, kLabel, Anchor::start, name, kGrey)) return false;
-      sheet_.rectangle(frame.right, y - 0.5, kTick, 1, kGrey);
+    const auto above_or_below = [&](double x, const std::string& name, bool above) {
+      const double y = above ? frame.top : frame.bottom;
+      if (!sheet_.text_if_free({x, above ? y - 6 : y + 17}, kLabel, Anchor::middle, name, kGrey))
+        return false;
+      sheet_.rectangle(x - 0.5, above ? y - kTick : y, 1, kTick, kGrey);
       return true;
     };
     if (lonlat_ != nullptr) {
       for (const double lon : multiples(lonlat_->west(), lonlat_->east(), lon_step()))
-        below(lonlat_->on_paper({lon, 0}).x, name_of_longitude(lon, decimals_));
+        above_or_below(lonlat_->on_paper({lon, 0}).x, name_of_longitude(lon, decimals_), false);
       for (const double lat : multiples(lonlat_->south(), lonlat_->north(), lat_step()))
-        left_of(lonlat_->on_paper({0, lat}).y, name_of_latitude(lat, decimals_));
+        beside(lonlat_->on_paper({0, lat}).y, name_of_latitude(lat, decimals_), true);
       top_ += 17;
       return;
     }
     if (!zoomed_) return;
     constexpr double kNear = 1e-6;
-    for (const GraticuleLine& line : graticule_) {
-      const auto label_end = [&](const auto& at_border, const auto& draw) {
-        const auto end = std::find_if(line.ends.begin(), line.ends.end(), at_border);
-        return end != line.ends.end() && draw(*end);
-      };
-      if (line.is_meridian) {
-        label_end([&](const Place& p) { return p.y > frame.bottom - kNear; },
-                  [&](const Place& p) { return below(p.x, line.name); }) ||
-            label_end([&](const Place& p) { return p.y < frame.top + kNear; },
-                      [&](const Place& p) { return above(p.x, line.name); });
-      } else {
-        label_end([&](const Place& p) { return p.x < frame.left + kNear; },
-                  [&](const Place& p) { return left_of(p.y, line.name); }) ||
-            label_end([&](const Place& p) { return p.x > frame.right - kNear; },
-                      [&](const Place& p) { return right_of(p.y, line.name); });
+    for (const GraticuleLine& line : graticule_)
+      for (const bool first : {true, false}) {  // below, else above; left, else right
+        const auto end = std::find_if(line.ends.begin(), line.ends.end(), [&](const Place& p) {
+          return line.is_meridian ? (first ? p.y > frame.bottom - kNear : p.y < frame.top + kNear)
+                                  : (first ? p.x < frame.left + kNear : p.x > frame.right - kNear);
+        });
+        if (end == line.ends.end()) continue;
+        if (line.is_meridian ? above_or_below(end->x, line.name, !first) : beside(end->y, line.name, first))
+          break;
       }
-    }
     top_ += 17;
   }
 
@@ -697,14 +670,14 @@ class MeshPicture {
   // ---- legend ----
 
   void draw_legend() {
-    if (scale_) {
-      top_ = draw_colour_bar(sheet_, top_, legend_, *scale_, *options_.palette, below_, above_);
-      if (options_.colour == Colour::value && shades_.back().count > 0)
+    if (shading_.scale) {
+      top_ = draw_colour_bar(sheet_, top_, shading_, *options_.palette);
+      if (const std::size_t missing = shading_.shades.back().count;
+          options_.colour == Colour::value && missing > 0)
         top_ = draw_note(sheet_, top_ + 2, kNoColour,
-                         fmt::format("no value: {} {}{}", grouped(shades_.back().count), what(),
-                                     shades_.back().count == 1 ? "" : "s"));
+                         fmt::format("no value: {} {}{}", grouped(missing), what(), missing == 1 ? "" : "s"));
     } else if (options_.colour == Colour::degree || options_.colour == Colour::value) {
-      top_ = draw_shades(sheet_, top_, title_of_legend(), shades_);
+      top_ = draw_shades(sheet_, top_, shading_);
     } else if (options_.colour == Colour::owner) {
       draw_legend_of_owners();
     }
@@ -715,17 +688,10 @@ class MeshPicture {
                                  grey ? "; grey: their cells, which share the rest of the sphere" : ""));
   }
 
-  std::string title_of_legend() const {
-    if (scale_) return legend_;
-    return (options_.colour == Colour::degree  ? "neighbours of a node"
-            : options_.colour == Colour::owner ? "rank that owns a node"
-                                               : legend_) +
-           " (how many nodes)";
-  }
-
   void draw_legend_of_owners() {
-    const auto [fewest, most] = std::minmax_element(
-        shades_.begin(), shades_.end(), [](const Shade& a, const Shade& b) { return a.count < b.count; });
+    const auto [fewest, most] =
+        std::minmax_element(shading_.shades.begin(), shading_.shades.end(),
+                            [](const Shade& a, const Shade& b) { return a.count < b.count; });
     sheet_.centred(
         top_ + 14, 14,
         fmt::format("{}: which of {} {} owns a {}; {} to {} nodes each", name_of(options_.partition),
@@ -759,12 +725,9 @@ class MeshPicture {
   std::vector<GraticuleLine> graticule_;
   Path graticule_path_;
   Faces faces_;
-  std::vector<Shade> shades_;
+  Shading shading_;
   std::vector<std::size_t> owner_;  ///< of each node
-  std::optional<Scale> scale_;
-  bool below_ = false, above_ = false;  ///< values lie beyond the ends of the scale
-  std::string legend_;                  ///< title of the legend
-  double spacing_ = 0;                  ///< mean distance of the drawn lines in pixels
+  double spacing_ = 0;              ///< mean distance of the drawn lines in pixels
 };
 
 }  // namespace

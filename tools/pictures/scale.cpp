@@ -32,10 +32,10 @@ int exponent_of(double value) { return static_cast<int>(std::floor(std::log10(va
 
 }  // namespace
 
-Scale::Scale(const std::vector<double>& values, int about, bool always_linear) {
+Scale::Scale(const std::vector<double>& values, int about) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   double low = within_range(*least), high = within_range(*most);
-  logarithmic_ = !always_linear && low > 0 && high > kMuch * low;
+  logarithmic_ = low > 0 && high > kMuch * low;
   if (high - low <= 1e-9 * std::fabs(high)) {  // all equal up to rounding
     const double around = high == 0 ? 1 : 0.1 * std::fabs(high);
     low -= around, high += around;
@@ -91,11 +91,10 @@ bool Scale::fits(double pixels, double size) const {
   return true;
 }
 
-Scale Scale::fitting(const std::vector<double>& values, int about, double pixels, double size,
-                     bool always_linear) {
+Scale Scale::fitting(const std::vector<double>& values, int about, double pixels, double size) {
   for (; about > 1; --about)
-    if (Scale scale(values, about, always_linear); scale.fits(pixels, size)) return scale;
-  return {values, 1, always_linear};
+    if (Scale scale(values, about); scale.fits(pixels, size)) return scale;
+  return {values, 1};
 }
 
 Scale Scale::between(double low, double high, int about, double pixels, double size) {
@@ -142,14 +141,6 @@ std::string power_of_ten(int exponent) {
   std::string text = exponent < 0 ? "10⁻" : "10";
   for (const char c : std::to_string(std::abs(exponent))) text += digits[c - '0'];
   return text;
-}
-
-std::string short_number(double value) {
-  const double size = std::fabs(value);
-  if (size == 0 || (size >= 0.001 && size < 1e5)) return printed(std::chars_format::general, 4, value);
-  const int exponent = exponent_of(size);
-  return printed(std::chars_format::general, 4, value / std::pow(10, exponent)) + "·" +
-         power_of_ten(exponent);
 }
 
 }  // namespace pictures

@@ -9,12 +9,10 @@ namespace pictures {
 /// A scale for some values, linear, or logarithmic if their ratio is large. Its ends are ticks.
 class Scale {
  public:
-  /// `values`: not empty. `about`: approximate number of steps between ticks. `always_linear`: for values
-  /// with a known range, such as angles.
-  Scale(const std::vector<double>& values, int about, bool always_linear = false);
+  /// `values`: not empty. `about`: approximate number of steps between ticks.
+  Scale(const std::vector<double>& values, int about);
   /// At most `about` steps; fewer if labels of font size `size` would overlap on `pixels` pixels.
-  static Scale fitting(const std::vector<double>& values, int about, double pixels, double size,
-                       bool always_linear = false);
+  static Scale fitting(const std::vector<double>& values, int about, double pixels, double size);
   /// From `low` to `high`, which need not be ticks.
   static Scale between(double low, double high, int about, double pixels, double size);
 
@@ -49,8 +47,5 @@ std::string grouped(std::size_t number);
 
 /// "10⁻⁴"
 std::string power_of_ten(int exponent);
-
-/// Four significant digits; exponential form only for very small or very large numbers.
-std::string short_number(double value);
 
 }  // namespace pictures

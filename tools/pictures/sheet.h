@@ -25,9 +25,8 @@ bool overlap(const Box& a, const Box& b);
 class Sheet {
  public:
   /// A picture of fewer pixels than kWidth is drawn in pixels, so that its texts stay readable; one of fewer
-  /// than `narrow`, or of more than kWidth, is scaled.
-  explicit Sheet(double pixels, double narrow = kNarrow)
-      : width_(std::clamp(pixels, narrow, kWidth)), pixels_(pixels) {}
+  /// than kNarrow, or of more than kWidth, is scaled.
+  explicit Sheet(double pixels) : width_(std::clamp(pixels, kNarrow, kWidth)), pixels_(pixels) {}
   double width() const { return width_; }
 
   /// Adds elements unchanged.

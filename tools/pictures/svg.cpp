@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -90,20 +91,9 @@ void Path::line(const Place& p) {
   last_ = to;
 }
 
-/// "M12.3-4": as short as SVG allows.
 void Path::add(char command, const Hundredths& p) {
-  const auto number = [&](long value, bool first) {
-    if (value < 0)
-      data_ += '-';
-    else if (!first)
-      data_ += ' ';
-    const long size = std::labs(value), rest = size % 100;
-    if (size >= 100 || rest == 0) data_ += std::to_string(size / 100);
-    if (rest != 0) data_ += rest % 10 == 0 ? fmt::format(".{}", rest / 10) : fmt::format(".{:02}", rest);
-  };
-  data_ += command;
-  number(p.x, true);
-  number(p.y, false);
+  fmt::format_to(std::back_inserter(data_), "{}{} {}", command, static_cast<double>(p.x) / 100,
+                 static_cast<double>(p.y) / 100);
 }
 
 }  // namespace pictures

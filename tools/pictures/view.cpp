@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "files/map_rings.h"
 #include "files/measures.h"
 #include "point_sets.h"
 
@@ -239,57 +240,6 @@ void LonLat::fill(const Frame& frame, double squeezed) {
   frame_ = {middle - width / 2, frame.top, middle + width / 2, frame.top + per_lat_ * (north_ - south_)};
 }
 
-/// A line on the map with continuous longitudes: they change by less than 180 degrees from point to point.
-///
-///        90 N  ------1=======2------     A corner at the north pole becomes the line 2-1, which leads
-///                    |       |           west: the polygon lies on its left. At the south pole the
-///                    v       ^           line leads east.
-///                    b       a
-class LonLat::Unrolled {
- public:
-  explicit Unrolled(const LonLat& view) : view_(view) {}
-
-  /// Starts a new line at p.
-  void begin(const Point& p) { begin(p, spot_of(p).lon); }
-  void begin(const Point& p, double lon) { line.push_back({lon, spot_of(p).lat}); }
-  /// Adds the arc from p, the last point, to q. It must not touch a pole.
-  void go(const Point& p, const Point& q, int depth = 0) {
-    Spot to = spot_of(q);
-    to.lon = turned_to(to.lon, line.back().lon);
-    add(p, q, to, depth);
-  }
-  /// Adds the meridian to a pole.
-  void go_to_pole(double lat) { line.push_back({line.back().lon, lat}); }
-  /// Adds the meridian from a pole to p.
-  void leave_pole(const Point& p) {
-    const double pole = line.back().lat, sign = pole > 0 ? -1 : 1;
-    double lon = turned_to(spot_of(p).lon, line.back().lon);
-    if (sign * (lon - line.back().lon) < 0) lon += sign * 360;
-    line.push_back({lon, pole});
-    line.push_back({lon, spot_of(p).lat});
-  }
-
-  std::vector<Spot> line;
-
- private:
-  void add(const Point& p, const Point& q, const Spot& to, int depth) {
-    const Spot from = line.back();
-    const Point m = middle_of(p, q);
-    Spot middle = spot_of(m);
-    middle.lon = turned_to(middle.lon, (from.lon + to.lon) / 2);
-    const auto paper = [&](const Spot& s) { return view_.on_paper(s); };
-    const bool bent = distance_from_line(paper(middle), paper(from), paper(to)) > kStraight &&
-                      !misses(paper(from), paper(middle), paper(to), view_.frame(), 360 * view_.per_lon_);
-    if (depth < kDeepest && (dot(p, q) < kLong || std::fabs(to.lon - from.lon) > 10 || bent)) {
-      add(p, m, middle, depth + 1);
-      add(m, q, to, depth + 1);
-    } else {
-      line.push_back(to);
-    }
-  }
-  const LonLat& view_;
-};
-
 namespace {
 
 /// 90 or -90 for a pole, 0 for other points.
@@ -298,18 +248,41 @@ double pole_at(const Point& p) {
   return std::fabs(p.x) < kNear && std::fabs(p.y) < kNear ? std::copysign(90.0, p.z) : 0;
 }
 
-/// The pole between a and b on their arc, if any.
-std::optional<Point> pole_between(const Point& a, const Point& b) {
-  if (pole_at(a) != 0 || pole_at(b) != 0) return std::nullopt;
+/// True if the arc from a to b leads through a pole between them.
+bool leads_over_pole(const Point& a, const Point& b) {
   const Point normal = cross(a, b);
-  if (std::fabs(normal.z) > 1e-9 * std::sqrt(dot(normal, normal))) return std::nullopt;
   // The great circle contains both poles, but the arc from a to b need not.
-  const double cosine = a.x * b.x + a.y * b.y;
-  if (cosine > 0) return std::nullopt;
-  return Point{0, 0, a.z + b.z > 0 ? 1.0 : -1.0};
+  return std::fabs(normal.z) <= 1e-9 * std::sqrt(dot(normal, normal)) && a.x * b.x + a.y * b.y <= 0;
 }
 
 }  // namespace
+
+/// Appends the points of the arc, without b, between which it looks straight.
+void LonLat::add_arc(const Point& a, const Point& b, std::vector<Point>& points, int depth) const {
+  if (pole_at(a) != 0) return points.push_back({0, 0, std::copysign(1.0, a.z)});
+  if (pole_at(b) == 0 && leads_over_pole(a, b)) {
+    points.push_back(a);
+    return points.push_back({0, 0, std::copysign(1.0, a.z + b.z)});
+  }
+  const Point m = middle_of(a, b);
+  const Spot from = spot_of(a);
+  Spot middle = spot_of(m), to = spot_of(b);
+  to.lon = turned_to(to.lon, from.lon);
+  middle.lon = turned_to(middle.lon, (from.lon + to.lon) / 2);
+  const Place p = on_paper(from), q = on_paper(middle), r = on_paper(to);
+  const bool bent = distance_from_line(q, p, r) > kStraight && !misses(p, q, r, frame_, 360 * per_lon_);
+  if (depth == kDeepest || pole_at(b) != 0 ||
+      (dot(a, b) >= kLong && std::fabs(to.lon - from.lon) <= 10 && !bent))
+    return points.push_back(a);
+  add_arc(a, m, points, depth + 1);
+  add_arc(m, b, points, depth + 1);
+}
+
+/// Calls visit(longitude of the turn) for each copy of what reaches from `from` to `to` that is in view.
+template <class Visit>
+void LonLat::for_each_turn(double from, double to, const Visit& visit) const {
+  for (double turn = 360 * std::ceil((west_ - to) / 360); from + turn <= east_; turn += 360) visit(turn);
+}
 
 double LonLat::scale() const { return per_lat_ * files::kRadian; }
 
@@ -322,73 +295,50 @@ std::optional<Place> LonLat::place(const Point& p) const {
 
 std::vector<Outline> LonLat::polygon(const std::vector<Point>& corners) const {
   std::vector<Point> points;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    points.push_back(corners[i]);
-    if (const auto pole = pole_between(corners[i], corners[(i + 1) % corners.size()]))
-      points.push_back(*pole);
-  }
-  const auto first =
-      std::find_if(points.begin(), points.end(), [](const Point& p) { return pole_at(p) == 0; });
-  if (first == points.end()) return {};
-  std::rotate(points.begin(), first, points.end());
-
-  Unrolled unrolled(*this);
-  unrolled.begin(points[0]);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Point &p = points[i], &q = points[(i + 1) % points.size()];
-    if (const double pole = pole_at(q); pole != 0)
-      unrolled.go_to_pole(pole);
-    else if (pole_at(p) != 0)
-      unrolled.leave_pole(q);
-    else
-      unrolled.go(p, q);
-  }
-  // The line goes once around the sphere: the pole on its left is inside.
-  std::vector<Spot>& line = unrolled.line;
-  if (const double turn = line.back().lon - line.front().lon; std::fabs(turn) > 180) {
-    const double pole = turn > 0 ? 90 : -90, begin = line.front().lon;
-    line.push_back({line.back().lon, pole});
-    line.push_back({begin, pole});
-  }
-
-  const auto [low, high] = std::minmax_element(line.begin(), line.end(),
-                                               [](const Spot& a, const Spot& b) { return a.lon < b.lon; });
-  const double from = low->lon, to = high->lon;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    add_arc(corners[i], corners[(i + 1) % corners.size()], points);
+  files::MapRing ring;
+  for (const Point& p : points) ring.push_back({p, spot_of(p).lon, spot_of(p).lat, 0, true});
+  ring = files::unrolled(ring, west_);
   std::vector<Outline> parts;
-  for (double turn = 360 * std::ceil((west_ - to) / 360); from + turn <= east_; turn += 360) {
+  if (ring.empty()) return parts;
+  const auto [low, high] = std::minmax_element(ring.begin(), ring.end(),
+                                               [](const auto& a, const auto& b) { return a.x() < b.x(); });
+  for_each_turn(low->x(), high->x(), [&](double turn) {
     Outline outline;
-    for (const Spot& s : line) outline.push_back(on_paper({s.lon + turn, s.lat}));
+    for (const files::MapCorner& c : ring) outline.push_back(on_paper({c.x() + turn, c.lat}));
     outline = clipped_polygon(outline, frame_);
     if (outline.size() >= 3) parts.push_back(outline);
-  }
+  });
   return parts;
 }
 
 std::vector<Outline> LonLat::arc(const Point& a, const Point& b) const {
-  if (const auto pole = pole_between(a, b)) {
-    std::vector<Outline> parts = arc(a, *pole);
-    for (Outline& part : arc(*pole, b)) parts.push_back(std::move(part));
-    return parts;
+  std::vector<Point> points;
+  add_arc(a, b, points);
+  points.push_back(b);
+  std::vector<std::vector<Spot>> lines(1);  // they end at poles
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    Spot s = spot_of(points[i]);
+    std::vector<Spot>& line = lines.back();
+    if (!line.empty()) s.lon = turned_to(s.lon, line.back().lon);
+    if (const double pole = pole_at(points[i]); pole == 0) {
+      line.push_back(s);
+    } else {
+      if (!line.empty()) line.push_back({line.back().lon, pole});
+      if (i + 1 < points.size()) lines.push_back({{spot_of(points[i + 1]).lon, pole}});
+    }
   }
-  Unrolled unrolled(*this);
-  if (const double pole = pole_at(b); pole != 0) {
-    unrolled.begin(a);
-    unrolled.go_to_pole(pole);
-  } else if (pole_at(a) != 0) {
-    unrolled.begin(a, spot_of(b).lon);
-    unrolled.line.push_back(spot_of(b));
-  } else {
-    unrolled.begin(a);
-    unrolled.go(a, b);
-  }
-  const auto [low, high] = std::minmax_element(unrolled.line.begin(), unrolled.line.end(),
-                                               [](const Spot& s, const Spot& t) { return s.lon < t.lon; });
-  const double from = low->lon, to = high->lon;
   std::vector<Outline> parts;
-  for (double turn = 360 * std::ceil((west_ - to) / 360); from + turn <= east_; turn += 360) {
-    Outline line;
-    for (const Spot& s : unrolled.line) line.push_back(on_paper({s.lon + turn, s.lat}));
-    for (Outline& part : clipped_line(line, frame_)) parts.push_back(std::move(part));
+  for (const std::vector<Spot>& line : lines) {
+    if (line.empty()) continue;
+    const auto [low, high] = std::minmax_element(line.begin(), line.end(),
+                                                 [](const Spot& s, const Spot& t) { return s.lon < t.lon; });
+    for_each_turn(low->lon, high->lon, [&](double turn) {
+      Outline outline;
+      for (const Spot& s : line) outline.push_back(on_paper({s.lon + turn, s.lat}));
+      for (Outline& part : clipped_line(outline, frame_)) parts.push_back(std::move(part));
+    });
   }
   return parts;
 }

@@ -108,7 +108,10 @@ class LonLat : public View {
  private:
   void fill(const Frame& frame, double squeezed);
 
-  class Unrolled;
+  void add_arc(const Point& a, const Point& b, std::vector<Point>& points, int depth = 0) const;
+  template <class Visit>
+  void for_each_turn(double from, double to, const Visit& visit) const;
+
   double west_, east_, south_, north_;
   double per_lon_, per_lat_;  ///< pixels per degree
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -22,13 +23,13 @@ namespace {
 using methods::Interpolation;
 
 enum class Outside { missing, nearest, error };
-/// Places of a grid: centres of cells, or, including the edges of the region, corners of cells.
+/// Places of a grid: centres of cells, or, including the edges of the box, corners of cells.
 enum class Registration { cell, node };
 enum class To { text, csv, netcdf };
 
 struct Options {
   Input input;
-  std::string points, grid, region;
+  std::string points, grid, box;
   double step = 0;
   Registration registration = Registration::cell;
   Interpolation::Method method = Interpolation::Method::linear;
@@ -58,7 +59,7 @@ double parts(double extent, double step) {
 }
 
 files::Grid grid_of(const Options& options) {
-  const files::Region r = options.region.empty() ? files::Region{} : region_of(options.region);
+  const files::Region r = options.box.empty() ? files::Region{} : region_of(options.box, "--box");
   const double width = r.east - r.west, height = r.north - r.south;
   const bool at_nodes = options.registration == Registration::node, all_around = width == 360;
   std::vector<double> counts;  // of latitudes and longitudes
@@ -79,7 +80,7 @@ files::Grid grid_of(const Options& options) {
   return grid;
 }
 
-/// The edges between the points of an axis. The first and the last are those of the region, or, if the points
+/// The edges between the points of an axis. The first and the last are those of the box, or, if the points
 /// go around the globe from one on, half a step further.
 std::vector<double> edges_between(const std::vector<double>& points, double low, double high,
                                   bool goes_around) {
@@ -90,7 +91,7 @@ std::vector<double> edges_between(const std::vector<double>& points, double low,
 }
 
 files::Grid edges_of(const files::Grid& grid, const Options& options) {
-  const files::Region r = options.region.empty() ? files::Region{} : region_of(options.region);
+  const files::Region r = options.box.empty() ? files::Region{} : region_of(options.box, "--box");
   const bool goes_around = options.registration == Registration::node && r.east - r.west == 360;
   return {edges_between(grid.lon, r.west, r.east, goes_around),
           edges_between(grid.lat, r.south, r.north, false)};
@@ -163,8 +164,8 @@ files::Nodes read_points(const Options& options) {
 void interpolate(Options& options) {
   if (options.points.empty() + options.grid.empty() + (options.step == 0) != 2)
     throw CLI::ValidationError("--to-points", "give one of --to-points, --to-grid, --grid-step");
-  if (!options.region.empty() && !options.points.empty())
-    throw CLI::ValidationError("--region", "is of a grid, not of --to-points");
+  if (!options.box.empty() && !options.points.empty())
+    throw CLI::ValidationError("--box", "is of a grid, not of --to-points");
   if (options.registration == Registration::node && !options.points.empty())
     throw CLI::ValidationError("--registration", "is of a grid, not of --to-points");
   const bool has_values = !options.output.empty(), has_weights = !options.weights.empty();
@@ -275,13 +276,13 @@ void add_interpolate(CLI::App& app, Command& chosen) {
       ->type_name("NLATxNLON");
   sub->add_option("--grid-step", options->step, "the same grid, by the distance of its points")
       ->type_name("DEGREES")
-      ->check(above_0("number of degrees"));
-  sub->add_option("--region", options->region,
+      ->check(number_from(kAbove0, kLargest, "a number of degrees above 0"));
+  sub->add_option("--box", options->box,
                   "edges: WEST,EAST,SOUTH,NORTH; 170,-170 crosses the dateline [-180,180,-90,90]")
       ->type_name("DEGREES");
   add_choice(*sub, "--registration", options->registration,
              {{"cell", Registration::cell}, {"node", Registration::node}},
-             "cell: centres of equal cells; node: on the edges of the region and between [cell]");
+             "cell: centres of equal cells; node: on the edges of the box and between [cell]");
   add_choice(
       *sub, "--method", options->method,
       {{"linear", Interpolation::Method::linear},

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 #include <unistd.h>
+
+#include <CLI/CLI.hpp>
 #ifdef _OPENMP
 #include <omp.h>
 #endif

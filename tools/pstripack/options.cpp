@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -106,13 +107,6 @@ std::string counted(std::size_t n, const std::string& thing) {
   return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s");
 }
 
-CLI::Validator one_of(std::vector<std::string> words) {
-  const auto check = [words = std::move(words)](const std::string& word) {
-    return std::find(words.begin(), words.end(), word) == words.end() ? is_none_of(word, words) : "";
-  };
-  return CLI::Validator(check, "");
-}
-
 CLI::Validator whole_number() {
   const auto check = [](std::string& text) -> std::string {
     double value = 0;
@@ -127,44 +121,39 @@ CLI::Validator whole_number() {
 
 std::vector<double> numbers_in(const std::string& option, const std::string& text, char separator,
                                std::size_t count) {
-  std::vector<double> numbers;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(separator, begin), text.size());
-    double value = 0;
-    if (!point_sets::parse(text.substr(begin, end - begin), value))
-      throw CLI::ValidationError(option, "'" + text + "' is not " + std::to_string(count) + " numbers");
-    numbers.push_back(value);
-    begin = end + 1;
-  }
+  std::vector<double> numbers = files::numbers_between(text, separator);
   if (numbers.size() != count)
-    throw CLI::ValidationError(option, "'" + text + "' is not " + std::to_string(count) + " numbers");
+    throw CLI::ValidationError(option, fmt::format("'{}' is not {} numbers", text, count));
   return numbers;
 }
 
-files::Region region_of(const std::string& text) {
-  const std::vector<double> r = numbers_in("--region", text, ',', 4);
+files::Region region_of(const std::string& text, const std::string& option) {
+  const std::vector<double> r = numbers_in(option, text, ',', 4);
   files::Region region{r[0], r[1] < r[0] ? r[1] + 360 : r[1], r[2], r[3]};
   const double width = region.east - region.west;
   if (!(std::fabs(r[0]) <= 360 && std::fabs(r[1]) <= 360 && width > 0 && width <= 360 && r[2] >= -90 &&
         r[2] < r[3] && r[3] <= 90))
     throw CLI::ValidationError(
-        "--region", "'" + text +
-                        "': expected WEST,EAST,SOUTH,NORTH in degrees, longitudes from -360 to 360, "
-                        "latitudes from -90 to 90, the south first; 170,-170 crosses the dateline");
+        option, "'" + text +
+                    "': expected WEST,EAST,SOUTH,NORTH in degrees, longitudes from -360 to 360, "
+                    "latitudes from -90 to 90, the south first; 170,-170 crosses the dateline");
   return region;
+}
+
+bool is_box(const std::string& text) {
+  return text.find(',') != text.npos && text.find_first_not_of("+-.,eE0123456789") == text.npos;
 }
 
 files::LimitedArea limited_area_of(const std::string& text, const files::ReadOptions& read, double radius) {
   constexpr std::string_view kCircle = "circle:";
   const bool is_circle = text.rfind(kCircle, 0) == 0;
-  const bool is_box =
-      !is_circle && text.find(',') != text.npos && text.find_first_not_of("+-.,eE0123456789") == text.npos;
-  if (!is_circle && !is_box && text != "-" && !std::filesystem::exists(text))
+  const bool is_file = !is_circle && !is_box(text);
+  if (is_file && text != "-" && !std::filesystem::exists(text))
     throw CLI::ValidationError("--region", "there is no file '" + text +
                                                "': expected WEST,EAST,SOUTH,NORTH, circle:KM,LON,LAT, or a "
                                                "file of GeoJSON polygons");
-  if (!is_circle && !is_box) return files::polygon_area(text, read.units == files::Units::degrees);
-  if (is_box) {
+  if (is_file) return files::polygon_area(text, read.units == files::Units::degrees);
+  if (!is_circle) {
     const files::Region box = region_of(text);
     if (read.units != files::Units::degrees &&
         std::max(std::fabs(box.west), std::fabs(box.east)) <= 4 * kDegree * 90 &&
@@ -217,7 +206,6 @@ void add_duplicates(CLI::App& app, Input& input) {
   add_choice(app, "--duplicates", input.duplicates,
              {{"error", Duplicates::error}, {"first", Duplicates::first}, {"mean", Duplicates::mean}},
              "nodes in the same place: error, first (keep it) or mean (of their values) [error]");
-  app.add_flag("--drop-duplicates", input.drop_duplicates, "the same as --duplicates first");
   app.add_option_function<std::string>(
          "--duplicates-within",
          [&input](const std::string& text) { input.within = distance_of("--duplicates-within", text); },
@@ -243,17 +231,19 @@ void add_output(CLI::App& app, Output& output, bool required) {
   app.footer("Formats and their suffixes:" + suffixes());
 }
 
-std::function<std::string(const std::string&)> above_0(const char* what) {
+std::function<std::string(const std::string&)> number_from(double low, double high, std::string what) {
   return [=](const std::string& word) {
     double value = 0;
-    return point_sets::parse(word, value) && value > 0 && std::isfinite(value)
-               ? std::string()
-               : fmt::format("'{}' is not a {} above 0", word, what);
+    return point_sets::parse(word, value) && low <= value && value <= high
+               ? ""
+               : fmt::format("'{}' is not {}", word, what);
   };
 }
 
 CLI::Option* add_radius(CLI::App& app, double& radius, const char* text) {
-  return app.add_option("--radius", radius, text)->type_name("METRES")->check(above_0("number of metres"));
+  return app.add_option("--radius", radius, text)
+      ->type_name("METRES")
+      ->check(number_from(kAbove0, kLargest, "a number of metres above 0"));
 }
 
 void add_edges(CLI::App& app, Output& output) {
@@ -396,7 +386,7 @@ void drop_duplicates(Nodes& nodes, const Input& input) {
   const bool means = input.duplicates == Duplicates::mean;
   if (!input.drops())
     throw std::runtime_error(fmt::format(
-        "{}: {} and {} are within {} of each other: remove one, or say --drop-duplicates", nodes.file,
+        "{}: {} and {} are within {} of each other: remove one, or say --duplicates first", nodes.file,
         nodes.place(duplicates[0].first), nodes.place(duplicates[0].node), within.text));
   if (means) {
     take_means(nodes.value, duplicates);
@@ -422,7 +412,7 @@ void tell_near_nodes(const Nodes& nodes, const files::NearNeighbours& near) {
   if (near.pairs == 0) return;
   say(fmt::format(
       "{}: {} less than 1 mm apart on the Earth, but not in the same place: {} and {}{}; "
-      "--drop-duplicates --duplicates-within 1mm keeps one of each pair",
+      "--duplicates first --duplicates-within 1mm keeps one of each pair",
       nodes.file, near.pairs == 1 ? "2 nodes are" : fmt::format("{} pairs of nodes are", near.pairs),
       nodes.place(near.first), nodes.place(near.second), near.pairs == 1 ? "" : ", ..."));
 }
@@ -448,7 +438,7 @@ void add_history(files::Notes& notes) {
 std::runtime_error no_mesh_of(const Nodes& nodes, const files::NoMesh& why) {
   if (const auto* const coincident = dynamic_cast<const files::CoincidentNodes*>(&why))
     return std::runtime_error(
-        fmt::format("{}: {} and {} are in the same place: remove one, or say --drop-duplicates", nodes.file,
+        fmt::format("{}: {} and {} are in the same place: remove one, or say --duplicates first", nodes.file,
                     nodes.place(coincident->first), nodes.place(coincident->second)));
   return std::runtime_error(nodes.file + ": " + why.what());
 }

@@ -1,8 +1,9 @@
 #pragma once
 // Common parts of the commands: input, output, exit codes.
 
-#include <CLI/CLI.hpp>
 #include <functional>
+#include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -20,9 +21,6 @@ namespace program {
 enum ExitCode { kDone = 0, kFailed = 1, kUsage = 2 };
 
 using Command = std::function<void()>;
-
-/// Accepts one of these words.
-CLI::Validator one_of(std::vector<std::string> words);
 
 /// "1 node", "2 nodes".
 std::string counted(std::size_t n, const std::string& thing);
@@ -46,8 +44,10 @@ Distance distance_of(const char* option, const std::string& text);
 std::vector<double> numbers_in(const std::string& option, const std::string& text, char separator,
                                std::size_t count);
 
-/// --region: WEST,EAST,SOUTH,NORTH. An east less than west is meant to be beyond 180 degrees.
-files::Region region_of(const std::string& text);
+/// WEST,EAST,SOUTH,NORTH. An east less than west is meant to be beyond 180 degrees. `option`: for messages.
+files::Region region_of(const std::string& text, const std::string& option = "--region");
+/// True if the text consists of numbers, so that it names no file.
+bool is_box(const std::string& text);
 
 /// --region of a limited area: WEST,EAST,SOUTH,NORTH, circle:KM,LON,LAT, or a file of polygons. `radius`: of
 /// the sphere, km.
@@ -61,16 +61,15 @@ struct Input {
   std::string file;
   files::ReadOptions read;
   Duplicates duplicates = Duplicates::error;
-  bool drop_duplicates = false;  ///< the same as Duplicates::first
-  Distance within;               ///< nodes this near to each other are in the same place
-  std::string list;              ///< file for the nodes that are dropped; empty: none
+  Distance within;   ///< nodes this near to each other are in the same place
+  std::string list;  ///< file for the nodes that are dropped; empty: none
 
-  bool drops() const { return drop_duplicates || duplicates != Duplicates::error; }
+  bool drops() const { return duplicates != Duplicates::error; }
 };
 void add_input(CLI::App& app, Input& input);
 /// --skip-missing: `what` must not be missing.
 void add_skip_missing(CLI::App& app, files::ReadOptions& read, const char* what);
-/// --duplicates, --drop-duplicates, --duplicates-within, --list-duplicates.
+/// --duplicates, --duplicates-within, --list-duplicates.
 void add_duplicates(CLI::App& app, Input& input);
 
 /// OUT and its format.
@@ -85,8 +84,10 @@ struct Output {
   void choose(std::optional<files::Format> otherwise = std::nullopt);
 };
 void add_output(CLI::App& app, Output& output, bool required);
-/// A check of an option: a finite number above 0. `what` is its name in the error.
-std::function<std::string(const std::string&)> above_0(const char* what);
+/// A check of an option: a number in this range; `what` it is for the error. CLI::Range lets nan pass.
+std::function<std::string(const std::string&)> number_from(double low, double high, std::string what);
+constexpr double kAbove0 = std::numeric_limits<double>::denorm_min(),
+                 kLargest = std::numeric_limits<double>::max();
 constexpr auto kRadiusOfMpas = "of the sphere in an MPAS mesh [that of the input, else 1]";
 CLI::Option* add_radius(CLI::App& app, double& radius, const char* text);
 void add_edges(CLI::App& app, Output& output);

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 
 #include "files/nearest.h"
-#include "pictures/histograms.h"
+#include "numbers.h"
 #include "pictures/mesh_globe.h"
 #include "pictures/scale.h"
 #include "pictures/svg.h"
@@ -25,32 +25,14 @@ constexpr double kWidth = 800;
 struct Options {
   Input input;
   std::string file, to, what = "triangles", view, colour = "none";
-  std::optional<double> radius;
-  std::string region, range, palette;
+  std::optional<double> zoom;
+  std::string box, range, palette;
   bool dots = false;
   bool coasts = false;
   std::string coast_file, three_file;
   std::optional<std::string> title;
   std::optional<double> width;
 };
-
-/// Splits a text at the separators.
-std::vector<std::string> parts_of(const std::string& text, char separator) {
-  std::vector<std::string> parts(1);
-  for (const char c : text)
-    if (c == separator)
-      parts.emplace_back();
-    else
-      parts.back() += c;
-  return parts;
-}
-
-/// The number, or NaN if the text is not one.
-double number_of(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  return text.empty() || *end != '\0' ? NAN : value;
-}
 
 /// Parses orthographic[:LON,LAT] or lonlat[:LON,LAT].
 void set_view(const std::string& text, MeshOptions& mesh) {
@@ -59,22 +41,21 @@ void set_view(const std::string& text, MeshOptions& mesh) {
                                              ": expected orthographic, lonlat, or one of them with the "
                                              "centre in degrees: orthographic:LON,LAT");
   };
-  const std::vector<std::string> parts = parts_of(text, ':');
+  const std::vector<std::string> parts = files::parts_of(text, ':');
   mesh.lonlat = parts[0] == "lonlat";
   if ((!mesh.lonlat && parts[0] != "orthographic") || parts.size() > 2) refuse();
   if (parts.size() == 1) return;
-  const std::vector<std::string> numbers = parts_of(parts[1], ',');
-  if (numbers.size() != 2) refuse();
-  mesh.centre = {number_of(numbers[0]), number_of(numbers[1])};
-  if (!(std::fabs(mesh.centre->lon) <= 360 && std::fabs(mesh.centre->lat) <= 90)) refuse();
+  const std::vector<double> numbers = files::numbers_between(parts[1], ',');
+  if (numbers.size() != 2 || std::fabs(numbers[0]) > 360 || std::fabs(numbers[1]) > 90) refuse();
+  mesh.centre = {numbers[0], numbers[1]};
 }
 
-/// Parses none, size, degree, owner:P[:bisection|stripes], or the name of a column.
+/// Parses none, area, degree, owner:P[:bisection|stripes], or the name of a column.
 void set_colour(const std::string& text, MeshOptions& mesh) {
   using Colour = MeshOptions::Colour;
-  const std::vector<std::string> parts = parts_of(text, ':');
+  const std::vector<std::string> parts = files::parts_of(text, ':');
   const std::map<std::string, Colour> words{
-      {"none", Colour::none}, {"size", Colour::size}, {"area", Colour::size}, {"degree", Colour::degree}};
+      {"none", Colour::none}, {"area", Colour::size}, {"degree", Colour::degree}};
   if (const auto word = words.find(text); word != words.end()) {
     mesh.colour = word->second;
     return;
@@ -86,7 +67,8 @@ void set_colour(const std::string& text, MeshOptions& mesh) {
   }
   const std::map<std::string, pstripack::PartitionKind> kinds{
       {"bisection", pstripack::PartitionKind::bisection}, {"stripes", pstripack::PartitionKind::stripes}};
-  const double ranks = parts.size() < 2 ? NAN : number_of(parts[1]);
+  double ranks = 0;
+  if (parts.size() > 1) point_sets::parse(parts[1], ranks);
   const auto kind = kinds.find(parts.size() == 3 ? parts[2] : "bisection");
   constexpr double kMost = 4096;
   if (parts.size() > 3 || !(ranks >= 1 && ranks <= kMost) || ranks != std::floor(ranks) ||
@@ -98,12 +80,12 @@ void set_colour(const std::string& text, MeshOptions& mesh) {
   mesh.partition = kind->second;
 }
 
-void set_region(const Options& options, MeshOptions& mesh) {
-  mesh.region = region_of(options.region);
+void set_box(const Options& options, MeshOptions& mesh) {
+  mesh.region = region_of(options.box, "--box");
   mesh.lonlat = true;
-  if (options.radius || (!options.view.empty() && options.view != "lonlat"))
+  if (options.zoom || (!options.view.empty() && options.view != "lonlat"))
     throw CLI::ValidationError(
-        "--region", "it is a map of longitude and latitude: leave out --radius, and other views than lonlat");
+        "--box", "it is a map of longitude and latitude: leave out --zoom, and other views than lonlat");
 }
 
 /// Sets --range and --palette.
@@ -152,42 +134,24 @@ void expect_column(const files::Nodes& nodes, const std::string& name) {
                                        name, files::did_you_mean(name, names), files::listed(names)));
 }
 
-/// CLI::Range lets nan pass.
-CLI::Validator number_from(double low, double high) {
-  const auto check = [=](const std::string& text) {
-    const double value = number_of(text);
-    return value >= low && value <= high
-               ? std::string()
-               : fmt::format("'{}': expected a number from {} to {}", text, low, high);
-  };
-  return CLI::Validator(check, "");
-}
-
 void plot(Options& options) {
   const bool globe = is_globe(options);
   const pictures::Kind kind = globe ? pictures::Kind::svg : kind_of(options);
-  const bool histograms = options.what == "histograms";
   MeshOptions mesh_options;
   if (options.what == "cells") mesh_options.what = MeshOptions::What::cells;
   if (!options.view.empty()) set_view(options.view, mesh_options);
   set_colour(options.colour, mesh_options);
-  if (!options.region.empty()) set_region(options, mesh_options);
+  if (!options.box.empty()) set_box(options, mesh_options);
   set_scale(options, mesh_options);
-  mesh_options.radius = options.radius;
+  mesh_options.radius = options.zoom;
   mesh_options.width = options.width.value_or(kWidth);
-  if (histograms && (!options.view.empty() || options.radius || !options.region.empty() || options.dots ||
-                     options.colour != "none"))
-    throw CLI::ValidationError("--what", "histograms have no --view, --radius, --region, --dots or --colour");
   if (mesh_options.colour == MeshOptions::Colour::degree && mesh_options.what != MeshOptions::What::cells)
     throw CLI::ValidationError("--colour", "degree is a property of nodes: say --what cells");
-  if (histograms && (options.coasts || !options.coast_file.empty()))
-    throw CLI::ValidationError("--what", "histograms have no coasts");
   mesh_options.dots = options.dots;
   mesh_options.coasts = options.coasts;
   mesh_options.coast_file = options.coast_file;
-  if (globe && (histograms || mesh_options.lonlat || options.width || options.dots))
-    throw CLI::ValidationError(
-        "--to", "a globe has no --what histograms, --view lonlat, --region, --dots or --width");
+  if (globe && (mesh_options.lonlat || options.width || options.dots))
+    throw CLI::ValidationError("--to", "a globe has no --view lonlat, --box, --dots or --width");
   if (!globe && !options.three_file.empty())
     throw CLI::ValidationError("--three-file", "only a globe, FILE.html, needs three.js");
   const std::string three = globe ? pictures::three_js(options.three_file) : "";
@@ -220,9 +184,7 @@ void plot(Options& options) {
                                            what_is_drawn(mesh, mesh_options.what));
     std::string picture;
     try {
-      picture = globe        ? globe_page(mesh_globe(mesh, mesh_options), three)
-                : histograms ? pictures::histograms(mesh, mesh_options.title, mesh_options.width)
-                             : mesh_picture(mesh, mesh_options);
+      picture = globe ? globe_page(mesh_globe(mesh, mesh_options), three) : mesh_picture(mesh, mesh_options);
     } catch (const std::runtime_error& e) {
       throw std::runtime_error(nodes.file + ": " + e.what());
     }
@@ -237,8 +199,8 @@ void plot(Options& options) {
 
 void add_plot(CLI::App& app, Command& chosen) {
   CLI::App* const sub = app.add_subcommand("plot",
-                                           "picture of the triangulation or its Voronoi cells, or histograms "
-                                           "of its quality: SVG or PNG; a globe to turn: HTML");
+                                           "picture of the triangulation or its Voronoi cells: SVG or PNG; "
+                                           "a globe to turn: HTML");
   const auto options = std::make_shared<Options>();
   add_input(*sub, options->input);
   add_duplicates(*sub, options->input);
@@ -249,17 +211,17 @@ void add_plot(CLI::App& app, Command& chosen) {
   sub->add_option("--to", options->to, "svg, png or html [by the suffix of the file]")
       ->type_name("FORMAT")
       ->check(one_of({"svg", "png", "html"}));
-  sub->add_option("--what", options->what, "triangles, cells (of the Voronoi diagram) or histograms")
+  sub->add_option("--what", options->what, "triangles, or cells of the Voronoi diagram")
       ->type_name("WORD")
       ->capture_default_str()
-      ->check(one_of({"triangles", "cells", "histograms"}));
+      ->check(one_of({"triangles", "cells"}));
   sub->add_option("--view", options->view,
                   "orthographic or lonlat, or with a centre orthographic:LON,LAT [the middle of the nodes]")
       ->type_name("VIEW");
-  sub->add_option("--radius", options->radius, "zoom: show this many degrees around the centre [all nodes]")
+  sub->add_option("--zoom", options->zoom, "show this many degrees around the centre [all nodes]")
       ->type_name("DEGREES")
-      ->check(number_from(1e-6, 180));
-  sub->add_option("--region", options->region,
+      ->check(number_from(1e-6, 180, "a number from 1e-06 to 180"));
+  sub->add_option("--box", options->box,
                   "show the map of WEST,EAST,SOUTH,NORTH; 170,-170 crosses the dateline")
       ->type_name("DEGREES");
   sub->add_option("--colour,--color", options->colour,
@@ -283,16 +245,16 @@ void add_plot(CLI::App& app, Command& chosen) {
   sub->add_option("--title", options->title, "[file and counts]")->type_name("TEXT");
   sub->add_option("--width", options->width, fmt::format("width of the picture [{}]", kWidth))
       ->type_name("PIXELS")
-      ->check(number_from(100, 20000));
+      ->check(number_from(100, 20000, "a number from 100 to 20000"));
   sub->footer(R"(  pstripack plot mesh.nc -o mesh.svg
-  pstripack plot nodes.txt --view orthographic:10,45 --radius 5 -o zoom.png --width 1600
+  pstripack plot nodes.txt --view orthographic:10,45 --zoom 5 -o zoom.png --width 1600
   pstripack plot nodes.txt --what cells --colour area -o cells.svg
   pstripack plot quakes.csv --what cells --colour mag --coasts --view lonlat -o quakes.svg
-  pstripack plot quakes.csv --what cells --colour mag --range 2,7 --palette magma --dots --region 170,-170,-30,-10 -o fiji.svg
+  pstripack plot quakes.csv --what cells --colour mag --range 2,7 --palette magma --dots --box 170,-170,-30,-10 -o fiji.svg
   pstripack plot quakes.csv --what cells --colour mag --coasts -o globe.html
 
 Colours:
-  area             of the triangle or cell, on a sphere of radius 6371 km (also called size)
+  area             of the triangle or cell, on a sphere of radius 6371 km
   degree           number of neighbours of the node; with --what cells only
   owner:P          rank that owns the node if P ranks divide the sphere by recursive bisection
   owner:P:stripes  the same, by stripes of longitude
@@ -300,7 +262,7 @@ Colours:
 
 Triangles of UGRID, MPAS and OFF files are drawn as they are; other nodes are triangulated first. Nodes that do not
 cover the sphere fill the picture; their boundary is orange. At most 200,000 nodes may be in view: choose a part by
---view and --radius. PNG needs rsvg-convert (Debian: librsvg2-bin). A globe is one file for any browser, without
+--view and --zoom. PNG needs rsvg-convert (Debian: librsvg2-bin). A globe is one file for any browser, without
 network: it holds the mesh, of any size, and three.js (Debian: libjs-three).)");
 
   sub->callback([=, &chosen] { chosen = [=] { plot(*options); }; });

@@ -2,12 +2,27 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <utility>
+
 #include "files/nearest.h"
 
 namespace program {
 
-std::string is_none_of(const std::string& word, const std::vector<std::string>& words) {
-  return fmt::format("'{}' is none of {}{}", word, fmt::join(words, ", "), files::did_you_mean(word, words));
+CLI::Validator one_of(std::vector<std::string> words) {
+  const auto check = [words = std::move(words)](const std::string& word) {
+    return std::find(words.begin(), words.end(), word) != words.end()
+               ? ""
+               : fmt::format("'{}' is none of {}{}", word, fmt::join(words, ", "),
+                             files::did_you_mean(word, words));
+  };
+  return CLI::Validator(check, "");
+}
+
+void add_words(CLI::App& app, const char* name, std::vector<std::string> words, const char* text,
+               const std::function<void(const std::string&)>& set) {
+  app.add_option_function(name, set, text)->type_name("WORD")->check(one_of(std::move(words)));
 }
 
 void add_reading(CLI::App& app, files::ReadOptions& read) {

@@ -4,6 +4,7 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -75,6 +76,12 @@ constexpr auto kEvaluations = "scvt_iterations", kDensity = "scvt_density",
                kWidthRegion = "scvt_width_region", kVariable = "scvt_density_variable",
                kRegion = "scvt_region", kRadius = "scvt_radius", kGrade = "scvt_grade", kSteps = "scvt_steps",
                kPairs = "scvt_pairs", kExponent = "scvt_exponent";
+
+// The options that are stored in them as they are.
+constexpr std::pair<const char*, std::string Options::*> kStored[] = {
+    {kDensity, &Options::density},          {kDensityFile, &Options::density_file},
+    {kWidthFile, &Options::width_file},     {kWidth, &Options::width_text},
+    {kWidthRegion, &Options::width_region}, {kRegion, &Options::region}};
 
 std::string note(const files::Notes& notes, const char* name) {
   const auto found = notes.find(name);
@@ -285,12 +292,8 @@ void choose_density(Options& options, const files::Notes& notes) {
              options.width_text.empty());
   };
   if (!is_chosen()) {
-    options.density = note(notes, kDensity);
-    options.density_file = note(notes, kDensityFile);
-    options.width_file = note(notes, kWidthFile);
-    options.width_text = note(notes, kWidth);
-    options.width_region = note(notes, kWidthRegion);
-    if (options.region.empty()) options.region = note(notes, kRegion);
+    for (const auto& [name, option] : kStored)
+      if ((options.*option).empty()) options.*option = note(notes, name);
     if (options.variable.empty()) options.variable = note(notes, kVariable);
   }
   if (!is_chosen()) options.density = "constant";
@@ -303,13 +306,8 @@ void choose_density(Options& options, const files::Notes& notes) {
 
 files::Notes notes_of_density(const Options& options) {
   files::Notes notes;
-  for (const auto& [name, text] : {std::pair(kDensity, options.density),
-                                   {kDensityFile, options.density_file},
-                                   {kWidthFile, options.width_file},
-                                   {kWidth, options.width_text},
-                                   {kWidthRegion, options.width_region},
-                                   {kRegion, options.region}})
-    if (!text.empty()) notes[name] = text;
+  for (const auto& [name, option] : kStored)
+    if (!(options.*option).empty()) notes[name] = options.*option;
   if (options.density.empty() && !options.variable.empty()) notes[kVariable] = options.variable;
   if (!options.width_file.empty() || !options.width_text.empty()) {
     notes[kRadius] = fmt::format("{}", options.radius);
@@ -383,10 +381,12 @@ Tessellation tessellation_of(Communicator& ranks, files::Nodes& start, const Opt
         t.state.evaluations = count_in(start, kEvaluations, 0);
         t.state.steps = count_in(start, kSteps, t.state.evaluations);
         t.state.exponent = static_cast<int>(count_in(start, kExponent, 0, -5000));
+        const files::Notes chosen = notes_of_density(options);
         bool has_same_density = true;
-        for (const char* const name :
-             {kDensity, kDensityFile, kWidthFile, kWidth, kWidthRegion, kRegion, kVariable, kRadius, kGrade})
-          has_same_density &= note(start.notes, name) == note(notes_of_density(options), name);
+        for (const char* const name : {kVariable, kRadius, kGrade})
+          has_same_density &= note(start.notes, name) == note(chosen, name);
+        for (const auto& [name, option] : kStored)
+          has_same_density &= note(start.notes, name) == options.*option;
         if (options.method == Method::newton && has_same_density) t.state.pairs = pairs_in(start);
         have_pairs.value = !t.state.pairs.empty();
         if (ranks.size() == 1) triangulate(start);  // reports wrong nodes with their lines
@@ -418,60 +418,48 @@ void write(const Output& output, files::Mesh& mesh) {
 }
 
 /// Writes the generators, or those in the region. A checkpoint gets all, and the pairs; for other files the
-/// quality of the mesh is returned. Collective.
+/// quality of the mesh is returned, of a whole mesh on rank 0. Collective.
 methods::Quality write(Ranks& ranks, const Options& options, bool is_checkpoint, const Tessellation& t,
                        const engine::Density& density, files::Notes&& notes) {
   const Output& output = is_checkpoint ? options.checkpoint : options.output;
   const bool is_regional = !is_checkpoint && !options.region.empty();
-  Communicator& communicator = ranks.communicator();
   const bool needs_mesh = !is_checkpoint || !files::holds_nodes(output.format);
+  const bool needs_whole_mesh = !files::holds_parts(output.format) || is_regional;
   if (is_checkpoint) notes[kPairs] = std::to_string(t.state.pairs.size());
-  const bool needs_whole_mesh = output.format == files::Format::mpas || is_regional;
-  const auto complete = [&](auto& mesh, const std::vector<Point>& generators, const State& state) {
+  Communicator& communicator = ranks.communicator();
+  const Tessellation slice = slice_of(communicator, t);
+  const auto complete = [&](auto& mesh, const std::vector<Point>& generators) {
     mesh.density = engine::values_at(generators, density);
-    if (is_checkpoint && !needs_whole_mesh) mesh.columns = columns_of(state);
     mesh.notes = std::move(notes);
   };
-  if (communicator.size() == 1) {
-    files::Mesh mesh;
-    if (needs_mesh)
-      mesh = files::triangulate(t.state.generators);
-    else
-      mesh.points = t.state.generators;
-    complete(mesh, t.state.generators, t.state);
-    if (is_regional) keep_area(mesh, options.area);
-    const methods::Quality quality = is_checkpoint ? methods::Quality() : methods::quality_of(mesh);
-    write(output, mesh);
+  methods::Quality quality;
+  if (needs_whole_mesh) {
+    std::vector<Point> all = on_rank_0(communicator, slice.state.generators);
+    in_agreement_with_caller(communicator, [&] {
+      if (communicator.rank() > 0) return;
+      files::Mesh mesh = files::triangulate(std::move(all));
+      complete(mesh, mesh.points);
+      if (is_regional) keep_area(mesh, options.area);
+      if (!is_checkpoint) quality = methods::quality_of(mesh);
+      write(output, mesh);
+    });
     return quality;
   }
-  const Tessellation slice = slice_of(communicator, t);
   files::MeshPart part;
-  methods::Quality quality;
   if (needs_mesh) {
     // A new evaluator: that of the run keeps its mesh for the next step.
     const std::shared_ptr<engine::Evaluator> evaluator = ranks.evaluator(density);
     evaluator->begin_with(slice.numbers);
     const engine::Neighbourhood nodes = evaluator->triangulate(slice.state.generators);
     if (!is_checkpoint) quality = methods::quality_of(communicator, nodes);
-    if (!needs_whole_mesh) part = part_of(communicator, nodes);
+    part = part_of(communicator, nodes);
   } else {
     part = part_of(communicator, slice.state.generators);
   }
-  if (needs_whole_mesh) {
-    std::vector<Point> all = on_rank_0(communicator, slice.state.generators);
-    in_agreement_with_caller(communicator, [&] {
-      if (communicator.rank() > 0) return;
-      files::Mesh mesh = files::triangulate(std::move(all));
-      complete(mesh, mesh.points, slice.state);
-      if (is_regional) {
-        keep_area(mesh, options.area);
-        quality = methods::quality_of(mesh);
-      }
-      write(output, mesh);
-    });
-    return quality;
-  }
-  in_agreement_with_caller(communicator, [&] { complete(part, slice.state.generators, slice.state); });
+  in_agreement_with_caller(communicator, [&] {
+    complete(part, slice.state.generators);
+    if (is_checkpoint) part.columns = columns_of(slice.state);
+  });
   write_parts(communicator, output.file, output.format, part);
   return quality;
 }
@@ -640,8 +628,8 @@ files::Nodes read_start(Communicator& ranks, const Options& options) {
     }
     if (input.drops() || input.within.radians > 0)
       throw std::runtime_error(
-          fmt::format("--drop-duplicates, --duplicates, --duplicates-within: several ranks cannot: "
-                      "`pstripack convert {} --drop-duplicates -o "
+          fmt::format("--duplicates, --duplicates-within: several ranks cannot: "
+                      "`pstripack convert {} --duplicates first -o "
                       "start.nodes.nc` writes what they can read",
                       input.file));
     if (input.file == "-" || (std::filesystem::exists(input.file) && !files::is_netcdf(input.file)))
@@ -653,36 +641,6 @@ files::Nodes read_start(Communicator& ranks, const Options& options) {
     start = read_places(input.file, input.read);
   });
   return start;
-}
-
-/// tell_near_nodes() of generators that are spread over ranks. Collective.
-void tell_near_generators(Ranks& ranks, const engine::Density& density, const Tessellation& t,
-                          const files::Nodes& start) {
-  Communicator& communicator = ranks.communicator();
-  const std::shared_ptr<engine::Evaluator> evaluator = ranks.evaluator(density);
-  evaluator->begin_with(t.numbers);
-  const engine::Neighbourhood nodes = evaluator->triangulate(t.state.generators);
-  std::size_t pairs = 0;
-  std::pair mine(pstripack::Smallest::kNone, pstripack::Smallest::kNone);  // numbers of the first pair here
-  for (std::size_t i = 0; i < nodes.stars.count; ++i)
-    for (std::size_t k = nodes.stars.begin_of(i); k < nodes.stars.end_of(i); ++k) {
-      const auto j = static_cast<std::size_t>(nodes.stars.neighbour[k]) - 1;
-      const std::pair pair(nodes.numbers[i], nodes.numbers[j]);
-      if (pair.first > pair.second || !files::is_near(nodes.points[i], nodes.points[j], files::kMillimetre))
-        continue;
-      ++pairs;
-      mine = std::min(mine, pair);
-    }
-  pstripack::Smallest first{mine.first}, second;
-  in_agreement_with_caller(
-      communicator, [] {}, first);
-  if (mine.first == first.value) second.value = mine.second;
-  in_agreement_with_caller(
-      communicator, [] {}, second);
-  const std::int64_t all = engine::sum_of_all(communicator, pairs);
-  if (all > 0)
-    tell_near_nodes(start, {static_cast<std::size_t>(all), static_cast<std::size_t>(first.value) - 1,
-                            static_cast<std::size_t>(second.value) - 1});
 }
 
 /// Throws if several ranks cannot read or write the requested files.
@@ -726,9 +684,7 @@ void scvt(Options& options, Ranks& ranks) {
     std::shared_ptr<engine::Evaluator> evaluator = ranks.evaluator(*density);
     Tessellation t = progress.step("placing generators", [&] {
       if (options.start.file.empty()) return first_tessellation(options, *evaluator, progress);
-      Tessellation given = tessellation_of(communicator, start, options);
-      if (communicator.size() > 1) tell_near_generators(ranks, *density, given, start);
-      return given;
+      return tessellation_of(communicator, start, options);
     });
     const std::int64_t steps_before = t.state.steps;
     const int signal =
@@ -800,9 +756,6 @@ void add_scvt(CLI::App& app, Command& chosen) {
   add_choice(*sub, "--first", options->first,
              {{"front", First::front}, {"levels", First::levels}, {"random", First::random}},
              "where N generators begin, see below [front from 3000 on, else levels; on ranks levels]");
-  sub->add_flag_callback(
-         "--levels", [=] { options->first = First::levels; }, "the same as --first levels")
-      ->excludes("--first");
   sub->add_option("--start", options->start.file,
                   "initial generators, or the output or checkpoint of a run to continue")
       ->type_name("FILE");
@@ -844,7 +797,7 @@ void add_scvt(CLI::App& app, Command& chosen) {
   sub->add_option("--grade", options->grade,
                   "most that widths may change, km per km: wider ones are lowered [0.2]")
       ->type_name("NUMBER")
-      ->check(above_0("finite number"));
+      ->check(number_from(kAbove0, kLargest, "a finite number above 0"));
   add_radius(*sub, options->radius, "of the sphere of widths [6371220], and in an MPAS mesh [1]");
   sub->add_option("--variable", options->variable,
                   "in the file of densities or widths: name (NetCDF) or column (text, from 1)")
@@ -855,17 +808,13 @@ void add_scvt(CLI::App& app, Command& chosen) {
                   "stop at this gradient: root mean square distance to the centroid over sqrt(4 pi/N) [1e-4; "
                   "where widths differ 3e-4; with --region 1e-3]")
       ->type_name("NUMBER")
-      ->check([](const std::string& text) {  // CLI::Range lets nan pass
-        double value = 0;
-        return point_sets::parse(text, value) && value >= 0 ? std::string()
-                                                            : "'" + text + "' is not a number of at least 0";
-      });
+      ->check(number_from(0, kLargest, "a number of at least 0"));
   sub->add_flag(
       "--well-centred", options->well_centred,
       "in the end move a few generators so that all triangles hold their circumcentre; always for mpas");
   sub->add_flag("--strict", options->strict,
                 "status 1 if the mesh is not converged, or not well centred where that is asked");
-  sub->add_option("--evaluations,--iterations", options->evaluations,
+  sub->add_option("--evaluations", options->evaluations,
                   "most evaluations of all N cells, those of the continued run included")
       ->type_name("NUMBER")
       ->transform(whole_number())
@@ -874,7 +823,7 @@ void add_scvt(CLI::App& app, Command& chosen) {
                   "end the iterations after this time from the start, and write the mesh; so does a signal "
                   "TERM or INT")
       ->type_name("SECONDS")
-      ->check(above_0("finite number"));
+      ->check(number_from(kAbove0, kLargest, "a finite number above 0"));
   sub->add_option("--checkpoint", options->checkpoint.file, "file to write every --every steps")
       ->type_name("FILE");
   sub->add_option("--every", options->every, "steps between checkpoints")

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "files/clipping.h"
@@ -17,7 +18,7 @@ namespace {
 struct Options {
   Input input;
   Output output;
-  std::string region, polygons;  ///< of `voronoi`
+  std::string clip_to;  ///< of `voronoi`: a box, or a file of polygons
   bool clip_to_hull = false;
   std::string what = "triangles";  ///< of `triangulate`
   Distance longest;
@@ -27,7 +28,7 @@ struct Options {
 template <class Write>
 void run(Options& options, const Write& write) {
   options.output.choose();
-  if (!options.region.empty()) region_of(options.region);  // check the option before reading
+  if (is_box(options.clip_to)) region_of(options.clip_to, "--clip-to");  // check the option before reading
   files::OutputFile file(options.output.file);
   Progress progress;
   options.input.read.with_columns = true;
@@ -79,7 +80,7 @@ void tell_huge_cell(const Options& options, const files::Faces& faces, const fil
   if (*largest < 100 * *middle) return;
   say(fmt::format(
       "{}: the cell of node {} has {:.0f} km2, {:.0f} times the median: it reaches far beyond the nodes; cut "
-      "the cells by --region{}",
+      "the cells by --clip-to{}",
       options.input.file, largest - faces.area.begin() + 1,
       *largest * files::kEarthRadius * files::kEarthRadius, *largest / *middle,
       mesh.has_boundary() ? " or --clip-to-hull" : ""));
@@ -94,23 +95,23 @@ void clip(files::Faces& faces, const std::string& file) {
 }
 
 void voronoi(Options& options) {
-  if (!options.polygons.empty() && (!options.region.empty() || options.clip_to_hull))
-    throw CLI::ValidationError("--clip-to", "cuts whole cells: leave out --region and --clip-to-hull");
+  const bool has_box = is_box(options.clip_to), has_polygons = !has_box && !options.clip_to.empty();
+  if (has_polygons && options.clip_to_hull)
+    throw CLI::ValidationError("--clip-to", "polygons cut whole cells: leave out --clip-to-hull");
   run(options, [&](const files::OutputFile& file, const files::Mesh& mesh) {
-    const bool are_whole = options.region.empty() && options.polygons.empty() && !options.clip_to_hull;
+    const bool are_whole = options.clip_to.empty() && !options.clip_to_hull;
     files::Faces faces = files::voronoi_faces(mesh);
     if (are_whole) tell_huge_cell(options, faces, mesh);
     files::divide_half_turns(faces, mesh.lists());
     if (options.clip_to_hull && !mesh.has_boundary())
       say(options.input.file + ": the nodes surround the sphere: --clip-to-hull cuts nothing");
     if (options.clip_to_hull) faces = clipped_to_hull(faces, mesh);
-    if (!options.region.empty()) faces = clipped_to_region(faces, region_of(options.region));
-    if (!options.polygons.empty()) clip(faces, options.polygons);
-    if (faces.size() == 0 && !options.polygons.empty())
-      throw files::NoMesh("the polygons of " + options.polygons + " are narrower than rounding");
+    if (has_box) faces = clipped_to_region(faces, region_of(options.clip_to, "--clip-to"));
+    if (has_polygons) clip(faces, options.clip_to);
     if (faces.size() == 0)
-      throw files::NoMesh(options.clip_to_hull ? "no part of the hull of the nodes lies in the region"
-                                               : "the region is smaller than 1e-10 degrees: make it larger");
+      throw files::NoMesh(has_polygons ? "the polygons of " + options.clip_to + " are narrower than rounding"
+                          : options.clip_to_hull ? "no part of the hull of the nodes lies in the box"
+                                                 : "the box is smaller than 1e-10 degrees: make it larger");
     files::add_columns(faces, mesh);
     faces.with_edges = options.output.edges;
     write_faces(file, options.output.format, faces, mesh.notes);
@@ -161,11 +162,10 @@ void add_voronoi(CLI::App& app, Command& chosen) {
           "Voronoi diagram of the nodes: a mesh with one polygon per node, in the order of the nodes",
           voronoi, chosen);
   CLI::App* const sub = app.get_subcommand("voronoi");
-  sub->add_option("--region", options->region,
-                  "cut the cells at WEST,EAST,SOUTH,NORTH; 170,-170 crosses the dateline")
-      ->type_name("DEGREES");
-  sub->add_option("--clip-to", options->polygons, "cut the cells at the polygons of this GeoJSON file")
-      ->type_name("FILE");
+  sub->add_option("--clip-to", options->clip_to,
+                  "cut the cells at WEST,EAST,SOUTH,NORTH, where 170,-170 crosses the dateline, or at the "
+                  "polygons of a GeoJSON file")
+      ->type_name("BOX");
   sub->add_flag("--clip-to-hull", options->clip_to_hull, "cut the cells at the convex hull of the nodes");
 }
 

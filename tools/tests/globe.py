@@ -131,7 +131,7 @@ def check_data():
     signed = [value >> 1 ^ -(value & 1) for value in integers(data["coasts"])]
     assert signed == [-2, 0, 0, 2000000, 100001, 15000000, -6100001, 1, -34050000, 14000000, 18050000, 900000], signed
 
-    run("plot", "nodes.csv", "--what", "cells", "--colour", "kind", "--view", "orthographic:10,50", "--radius", 20, "-o", "kinds.html", *stub)
+    run("plot", "nodes.csv", "--what", "cells", "--colour", "kind", "--view", "orthographic:10,50", "--zoom", 20, "-o", "kinds.html", *stub)
     data = Page("kinds.html").data
     assert data["words"] == [row["kind"] for row in given] and data["labels"][:2] == ["Où</script>", "b"], data["labels"]
     assert data["centre"] == [10, 50] and data["radius"] == 20 and "ticks" not in data

@@ -160,7 +160,7 @@ def check_regions(name):
     for west, east, south, north in ((170, -170, 25, 50), (175, 185, -25, -15), (-180, 180, -60, 60), (0, 360, 60, 90),
                                      (0, 360, -90, 90), (179.99, -179.99, 10, 10.01), (350, 10, -90, 90),
                                      (100, -100, -70, 80)):
-        run("voronoi", FOLDER / f"{name}.csv", f"--region={west},{east},{south},{north}", "-o", FOLDER / "cells.geojson")
+        run("voronoi", FOLDER / f"{name}.csv", f"--clip-to={west},{east},{south},{north}", "-o", FOLDER / "cells.geojson")
         width = (east - west) % 360 or 360
         exact = math.radians(width) * (math.sin(math.radians(north)) - math.sin(math.radians(south)))
         for cell in check_polygons(FOLDER / "cells.geojson", None, exact):

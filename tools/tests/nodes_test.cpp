@@ -310,6 +310,20 @@ TEST(tables, that_cannot_be_used_are_refused_with_line_reason_and_remedy) {
   refused("45N 120W\n", ":1: '45N' is not a finite number: write 45N as 45, 45S as -45, 120W as -120");
   refused("1 2\n45:30 2\n", ":2: '45:30' is not a finite number: write degrees as one decimal number");
   refused("80 100\n20 10\n", "are they exchanged? Then say --columns 2,1");
+  refused("lat,mag,lon\n95,1,10\n20,1,30\n", "are they exchanged? Then say --columns 1,3");
+  refused("1 2\n3 x\n",
+          ":2: 'x' is not a finite number: correct it, remove the row, or choose other --columns");
+  refused("10,5\t20,1\n30,1\t40,2\n",
+          ":1: '5\\t20' is not a finite number: write a decimal comma as a point");
+  refused("lon lat\n10,5 20,1\n",
+          ":2: found 4 columns where the header has 2: write a decimal comma as a point");
+  refused("5\n1 2\n3 4\n",
+          ":1: a single number is the count of the points that follow; there are 2: correct");
+  refused("lon,lat\r10,20\r30,40\r", ":1: lines end with CR alone: end them with LF");
+  refused(
+      "\x1F\x8B\x08"
+      "abc",
+      ": compressed by gzip: use `gunzip` first");
   refused(std::string("\xFF\xFE") + "1\0 \0", ":1: UTF-16: save the file as UTF-8");
   expect_error("3.1 1.5\n-3 -1.5\n", "latitudes 1.5, as radians do)");
   expect_error("350 1\n", "more than two turns in radians; --units degrees?", kRadians);

@@ -211,18 +211,18 @@ def check_field(nodes):
 
 def check_regions():
     """Cells of a region across the dateline, and grids of nodes there and around the globe."""
-    run("voronoi", FOLDER / "nodes.txt", "--region", "170,-170,25,50", "-o", FOLDER / "region.nc")
+    run("voronoi", FOLDER / "nodes.txt", "--clip-to", "170,-170,25,50", "-o", FOLDER / "region.nc")
     area = math.radians(20) * (math.sin(math.radians(50)) - math.sin(math.radians(25)))
     with xarray.open_dataset(FOLDER / "region.nc") as cells:
         assert abs(cells["area"].values.sum() - area) < 1e-6
         assert abs(np.abs(cells["mesh_node_lon"].values) - 175).max() <= 5
         assert (cells["mesh_node_lat"].values.min(), cells["mesh_node_lat"].values.max()) == (25, 50)
-    run("voronoi", FOLDER / "nodes.txt", "--region", "170,-170,25,50", "-o", FOLDER / "region.scrip.nc")
+    run("voronoi", FOLDER / "nodes.txt", "--clip-to", "170,-170,25,50", "-o", FOLDER / "region.scrip.nc")
     with netCDF4.Dataset(FOLDER / "region.scrip.nc") as grid:
         assert abs(grid["grid_area"][:].sum() - area) < 1e-6
     for region, lon, lat in (("0,360,-90,90", np.arange(0, 360, 5), np.arange(-90, 91, 5)),
                              ("170,-170,25,50", np.arange(170, 191, 5), np.arange(25, 51, 5))):
-        run("interpolate", FOLDER / "values.txt", "--registration", "node", "--grid-step", 5, "--region", region, "-o",
+        run("interpolate", FOLDER / "values.txt", "--registration", "node", "--grid-step", 5, "--box", region, "-o",
             FOLDER / "grid.nc")
         with xarray.open_dataset(FOLDER / "grid.nc") as grid:
             assert (grid.lon.values == lon).all() and (grid.lat.values == lat).all()
@@ -232,8 +232,8 @@ def check_regions():
 
 
 def check_scvt():
-    run("scvt", 100, "--density", "bump", "--iterations", 5, "-o", FOLDER / "scvt.mpas.nc")
-    run("scvt", 100, "--density", "bump", "--iterations", 5, "--well-centred", "-o", FOLDER / "scvt.nc")
+    run("scvt", 100, "--density", "bump", "--evaluations", 5, "-o", FOLDER / "scvt.mpas.nc")
+    run("scvt", 100, "--density", "bump", "--evaluations", 5, "--well-centred", "-o", FOLDER / "scvt.nc")
     with netCDF4.Dataset(FOLDER / "scvt.mpas.nc") as mpas, xarray.open_dataset(FOLDER / "scvt.nc") as ugrid:
         density = mpas["meshDensity"][:]
         given = ugrid["meshDensity"].values
@@ -254,7 +254,7 @@ def check_weights():
         for name, numbers in (("nav_lon", lon), ("nav_lat", lat), ("sst", value)):
             variable = data.createVariable(name, "f8", ("time", "y", "x") if name == "sst" else ("y", "x"), fill_value=-999)
             variable[:] = numbers.reshape(variable.shape)
-    common = [FOLDER / "curvilinear.nc", "--variable", "sst", "--skip-missing", "--drop-duplicates"]
+    common = [FOLDER / "curvilinear.nc", "--variable", "sst", "--skip-missing", "--duplicates", "first"]
     for method in ("linear", "natural", "nearest"):
         for registration in ("cell", "node"):
             out, weights = FOLDER / "grid.nc", FOLDER / "weights.nc"

@@ -48,18 +48,6 @@ documented_tables)
   [ -s help.formats ] || fail "'pstripack triangulate --help' has no formats"
   grep -o '(`[a-z]*`; `\.[^)]*)' "$DOCUMENT" | tr -d '(`;,)' | sort > document.formats
   diff document.formats help.formats || fail "docs/pstripack.md has other formats or suffixes than --help"
-  # The error of geodetic latitudes that are taken as those of a sphere of 6371 km, on WGS 84.
-  awk 'BEGIN { a = 6378.137; f = 1 / 298.257223563; e2 = f * (2 - f); radian = 45 / atan2(1, 1)
-    for (i = 1; i < 9000; ++i) {
-      phi = i / 100 / radian; s = sin(phi); w = sqrt(1 - e2 * s * s)
-      d = (phi - atan2((1 - e2) * s, cos(phi))) * radian
-      if (d > most) { most = d; at = i / 100 }
-      for (k = 0; k < 2; ++k) { r = 6371 / (k ? a / w : a * (1 - e2) / w ^ 3) - 1; if (r ^ 2 > ratio ^ 2) ratio = r }
-    }
-    printf "%.2f degrees (%.0f km, at %.0f degrees) %.1f %%\n", most, most / radian * 6371, at, 100 * ratio }' > geodetic
-  [ "$(cat geodetic)" = "0.19 degrees (21 km, at 45 degrees) 0.6 %" ] || fail "$(cat geodetic)"
-  tr '\n' ' ' < "$DOCUMENT" | grep -q "up to 0.19 degrees (21 km, at 45 degrees), .* by up to 0.6 %" || fail "geodetic latitudes"
-  "$PSTRIPACK" triangulate --help | tr -s '\n ' ' ' | grep -q "up to 0.19 degrees, 21 km" || fail "--help: geodetic latitudes"
   rows_of "Densities:" scvt | sed -n 's/^  \([a-z]*\).*/\1/p' | grep . | sort -u > help.densities
   [ -s help.densities ] || fail "'pstripack scvt --help' has no densities"
   sed -n '/^Formulas: /,/(`--help`)/p' "$(dirname "$DOCUMENT")/scvt.md" | grep -o '`[a-z]*`' | tr -d '`' | sort -u > document.densities
@@ -204,8 +192,7 @@ END
 
 bad_netcdf)
   printf 'CDF, it says' > broken.nc
-  refuses 1 "broken.nc: damaged or incomplete NetCDF file: its format is none of CDF-1, CDF-2 and CDF-5" \
-    triangulate broken.nc -o mesh.nc
+  refuses 1 "broken.nc: NetCDF: Unknown file format" triangulate broken.nc -o mesh.nc
   "$PSTRIPACK" -q points random 50 -o nodes.nc
   refuses 1 "holds nodes without triangles" convert nodes.nc -o mesh.mpas.nc
   refuses 1 "gmsh cannot hold polygons" voronoi nodes.nc -o cells.msh
@@ -265,37 +252,16 @@ no_partial_output)
   [ $code = 1 ] || fail "exit code $code where the disk is full"
   grep -q "mesh.off: cannot be written: File too large" err_of_full || fail "$(cat err_of_full)"
   [ "$(cat mesh.off)" = old ] || fail "mesh.off has changed"
-  # A file keeps its permissions, and one that nobody may write is not replaced, by root neither.
-  chmod 600 mesh.off
-  "$PSTRIPACK" -q triangulate nodes.txt -o mesh.off
-  [ "$(stat -c %a mesh.off)" = 600 ] || fail "mesh.off has permissions $(stat -c %a mesh.off)"
-  echo old > mesh.off
-  chmod 444 mesh.off
-  refuses 1 "mesh.off: cannot be written: Permission denied" triangulate nodes.txt -o mesh.off
-  # The temporary file of a killed run is named by the next one.
-  mkfifo never
-  "$PSTRIPACK" -q convert never -o many.txt &
-  process=$!
-  for _ in $(seq 1000); do
-    temporary=$(echo .many.txt.*)
-    [ -e "$temporary" ] && break
-    sleep 0.01
-  done
-  kill -KILL $process
-  wait $process || true
-  "$PSTRIPACK" convert nodes.txt -o many.txt 2> err
-  grep -qF "/$temporary is unfinished output of a killed run: process $process does not run on this machine: remove it" err ||
-    fail "$temporary: $(cat err)"
-  rm -f out err err_of_full never "$temporary"
+  rm -f out err err_of_full
   [ "$(ls -A)" = "$(printf 'many.txt\nmesh.off\nnodes.txt\ntwice.txt')" ] || fail "files are left: $(ls -A)"
   ;;
 
 duplicates)
   { octahedron; octahedron; } > twice.txt
-  refuses 1 "twice.txt: node 1 (line 1) and node 7 (line 7) are in the same place: remove one, or say --drop-duplicates" \
+  refuses 1 "twice.txt: node 1 (line 1) and node 7 (line 7) are in the same place: remove one, or say --duplicates first" \
     triangulate twice.txt -o twice.off
   octahedron > once.txt
-  "$PSTRIPACK" triangulate twice.txt --drop-duplicates -o dropped.off 2> err
+  "$PSTRIPACK" triangulate twice.txt --duplicates first -o dropped.off 2> err
   grep -q "6 nodes dropped" err || fail "$(cat err)"
   "$PSTRIPACK" -q triangulate once.txt -o once.off
   cmp once.off dropped.off
@@ -309,10 +275,10 @@ duplicates)
   # A longitude-latitude grid in radians has one node at each pole.
   grid=$(dirname "$DOCUMENT")/../tests/data/radian_grid.csv
   refuses 1 "node 1 (line 2) and node 2 (line 3) are in the same place" voronoi "$grid" -o failed.csv
-  "$PSTRIPACK" -q voronoi "$grid" --drop-duplicates -o cells.csv
+  "$PSTRIPACK" -q voronoi "$grid" --duplicates first -o cells.csv
   [ "$(cut -d , -f 2-5 cells.csv | tail -n +2 | tr '\n' ' ')" = "-90,1,2,3 0,4,5,4 0,5,6,4 0,6,7,4 90,7,8,3 " ] || fail "$(cat cells.csv)"
   refuses 1 "are in the same place" scvt --start "$grid" -o failed.off
-  "$PSTRIPACK" -q convert "$grid" --drop-duplicates -o once.csv
+  "$PSTRIPACK" -q convert "$grid" --duplicates first -o once.csv
   [ "$(wc -l < once.csv)" = 6 ] || fail "$(cat once.csv)"
   ;;
 
@@ -329,7 +295,7 @@ tiny_nodes)
 near_nodes)
   # 0.1 mm, 1 m and 1 km from node 1.
   { echo "lon,lat,value"; printf '%s\n' 0,0,1 90,0,1 180,0,1 -90,0,1 0,90,1 0,-90,1 9e-10,0,3 9e-6,0,5 0.009,0,7; } > near.csv
-  line="2 nodes are less than 1 mm apart on the Earth, but not in the same place: node 1 (line 2) and node 7 (line 8); --drop-duplicates --duplicates-within 1mm keeps one"
+  line="2 nodes are less than 1 mm apart on the Earth, but not in the same place: node 1 (line 2) and node 7 (line 8); --duplicates first --duplicates-within 1mm keeps one"
   for command in "triangulate near.csv" "voronoi near.csv" "interpolate near.csv --to-grid 2x2" "scvt --start near.csv"; do
     # shellcheck disable=SC2086
     "$PSTRIPACK" $command --units degrees -o out.nc 2> err
@@ -360,7 +326,7 @@ near_nodes)
 END
   "$PSTRIPACK" convert near.csv --units degrees --duplicates mean --duplicates-within 2km -o out.csv 2> err
   [ "$(sed -n 2p out.csv)" = 0,0,4 ] || fail "$(cat out.csv)"
-  refuses 1 "near.csv: node 1 (line 2) and node 7 (line 8) are within 1mm of each other: remove one, or say --drop-duplicates" \
+  refuses 1 "near.csv: node 1 (line 2) and node 7 (line 8) are within 1mm of each other: remove one, or say --duplicates first" \
     triangulate near.csv --units degrees --duplicates-within 1mm -o failed.off
   for within in 1 1foot mm 1e-9 -1mm 90deg 10008km nanm; do
     refuses 2 "--duplicates-within: '$within': expected" triangulate near.csv "--duplicates-within=$within" -o failed.off
@@ -388,9 +354,9 @@ pictures)
   if cmp -s one.svg other.svg; then fail "the triangles of a file are not drawn"; fi
   if command -v rsvg-convert > /dev/null; then
     "$PSTRIPACK" -q plot nodes.txt --view lonlat --width 1000 -o a.png
-    # The signature and, in the header, 1000 (0x3e8) by 551 (0x227) pixels.
-    [ "$(od -A n -t x1 -N 24 a.png | tr -d ' \n')" = 89504e470d0a1a0a0000000d49484452000003e800000227 ] ||
-      fail "a.png is no PNG of 1000 x 551 pixels: $(od -A n -t x1 -N 24 a.png)"
+    # The signature and, in the header, 1000 (0x3e8) by 549 (0x225) pixels.
+    [ "$(od -A n -t x1 -N 24 a.png | tr -d ' \n')" = 89504e470d0a1a0a0000000d49484452000003e800000225 ] ||
+      fail "a.png is no PNG of 1000 x 549 pixels: $(od -A n -t x1 -N 24 a.png)"
   fi
   # PNG without the program that makes it.
   code=0
@@ -406,16 +372,15 @@ pictures)
     plot nodes.txt -o c.svg --colour aera
   refuses 1 "no.shp: cannot be opened: No such file" plot nodes.txt -o c.svg --coast-file no.shp
   refuses 1 "nodes.txt: not a shapefile (.shp) of lines or polygons" plot nodes.txt -o c.svg --coast-file nodes.txt
-  refuses 2 "histograms have no coasts" plot nodes.txt -o c.svg --what histograms --coasts
-  refuses 2 "--region: it is a map of longitude and latitude: leave out --radius" plot nodes.txt -o c.svg --region 0,10,20,30 --radius 5
-  refuses 2 "--region: it is a map of longitude and latitude: leave out" plot nodes.txt -o c.svg --region 0,10,20,30 --view orthographic
-  refuses 2 "--region: '0,10,30,20': expected WEST,EAST,SOUTH,NORTH" plot nodes.txt -o c.svg --region 0,10,30,20
-  refuses 2 "--radius: 'nan': expected a number from 1e-06 to 180" plot nodes.txt -o c.svg --radius nan
-  refuses 2 "--width: 'nan': expected a number from 100 to 20000" plot nodes.txt -o c.svg --width nan
+  refuses 2 "--box: it is a map of longitude and latitude: leave out --zoom" plot nodes.txt -o c.svg --box 0,10,20,30 --zoom 5
+  refuses 2 "--box: it is a map of longitude and latitude: leave out" plot nodes.txt -o c.svg --box 0,10,20,30 --view orthographic
+  refuses 2 "--box: '0,10,30,20': expected WEST,EAST,SOUTH,NORTH" plot nodes.txt -o c.svg --box 0,10,30,20
+  refuses 2 "--zoom: 'nan' is not a number from 1e-06 to 180" plot nodes.txt -o c.svg --zoom nan
+  refuses 2 "--width: 'nan' is not a number from 100 to 20000" plot nodes.txt -o c.svg --width nan
   refuses 2 "--range: '5,2': expected LOW,HIGH, the lower first" plot nodes.txt -o c.svg --colour area --range 5,2
   refuses 2 "--range: a colour bar is needed: --colour area or a column of numbers" plot nodes.txt -o c.svg --range 2,5
   refuses 2 "'virdis' is none of viridis, magma, cividis, coolwarm, grey; did you mean viridis?" plot nodes.txt -o c.svg --palette virdis
-  "$PSTRIPACK" -q plot nodes.txt --what cells --colour area --range 1e5,1e6 --palette magma --dots --region 170,-170,-30,-10 -o part.svg
+  "$PSTRIPACK" -q plot nodes.txt --what cells --colour area --range 1e5,1e6 --palette magma --dots --box 170,-170,-30,-10 -o part.svg
   grep -q '>nodes.txt: 300 cells<' part.svg && grep -q 'fcfdbf' part.svg || fail "no title or palette"
   # Cells that voronoi has written, and their columns; of another command's, or another program's, not.
   "$PSTRIPACK" -q voronoi nodes.txt -o cells.geojson
@@ -433,16 +398,15 @@ pictures)
   grep -q '>a (3)<' place.svg && grep -q '>b (2)<' place.svg || fail "no legend of place"
   refuses 1 "place is a column of words: say --what cells" plot quakes.csv -o c.svg --colour place
   refuses 2 "degree is a property of nodes: say --what cells" plot nodes.txt -o c.svg --colour degree
-  refuses 2 "histograms have no --view, --radius, --region, --dots or --colour" plot nodes.txt -o c.svg --what histograms --view lonlat
   refuses 1 "no/such/folder/c.svg: cannot be written: No such file" plot nodes.txt -o no/such/folder/c.svg
   refuses 1 "/dev/full: cannot be written: No space left" plot nodes.txt -o /dev/full --to svg
   "$PSTRIPACK" -q points fibonacci 410000 -o many.raw
-  refuses 1 "nodes are in view, at most 200,000 can be drawn: zoom in, for example by --view orthographic:0,30 --radius" \
+  refuses 1 "nodes are in view, at most 200,000 can be drawn: zoom in, for example by --view orthographic:0,30 --zoom" \
     plot many.raw --from raw --coordinates xyz -q -o c.svg
   echo 'export { WebGLRenderer };' > module.js
-  for option in "--what histograms" "--view lonlat" "--width 500"; do
+  for option in "--view lonlat" "--width 500"; do
     # shellcheck disable=SC2086
-    refuses 2 "a globe has no --what histograms, --view lonlat, --region, --dots or --width" plot nodes.txt -o c.html $option
+    refuses 2 "a globe has no --view lonlat, --box, --dots or --width" plot nodes.txt -o c.html $option
   done
   refuses 2 "only a globe, FILE.html, needs three.js" plot nodes.txt -o c.svg --three-file module.js
   refuses 1 "no.js: cannot be opened: No such file or directory: globes need three.js (Debian: libjs-three" \
@@ -464,14 +428,14 @@ scvt)
   # and with all pairs of the quasi-Newton method, and from two formats.
   for run in 2:checkpoint.nc 5:checkpoint.ugrid.nc 11:checkpoint.nc; do
     checkpoint=${run#*:}
-    "$PSTRIPACK" -q scvt 300 --density bump --iterations 14 --tolerance 1e-6 --checkpoint $checkpoint --every ${run%:*} -o short.mpas.nc
+    "$PSTRIPACK" -q scvt 300 --density bump --evaluations 14 --tolerance 1e-6 --checkpoint $checkpoint --every ${run%:*} -o short.mpas.nc
     "$PSTRIPACK" scvt --start $checkpoint --evaluations 30 --tolerance 1e-6 -o resumed.nodes.nc 2> err
     grep -q " 3[0-9] evaluations, " err || fail "$(cat err)"
     same direct.nodes.nc resumed.nodes.nc
     [ "$("$PSTRIPACK" -q convert $checkpoint -o - --to xyz | wc -l)" = 300 ] || fail "$checkpoint is not whole"
   done
   # Without the pairs the run starts new ones; evaluations are counted from where the other run ended.
-  "$PSTRIPACK" scvt --start short.mpas.nc --iterations 200 --tolerance 1e-4 -o resumed.nodes.nc 2> err
+  "$PSTRIPACK" scvt --start short.mpas.nc --evaluations 200 --tolerance 1e-4 -o resumed.nodes.nc 2> err
   grep -q " evaluations, converged to 0.0001: " err || fail "$(cat err)"
   "$PSTRIPACK" scvt --start direct.nodes.nc --evaluations 12 --tolerance 1e-6 -o again.nodes.nc 2> err
   grep -q "none was left to do" err || fail "$(cat err)"
@@ -480,10 +444,10 @@ scvt)
   "$PSTRIPACK" scvt --start checkpoint.nc --density bump:0,0,30,10,2 --evaluations 1e3 -o other.off 2> err
   grep -q " evaluations, converged to 0.0001: " err || fail "$(cat err)"
   # Lloyd's method has no memory: it also continues from its output.
-  "$PSTRIPACK" -q scvt 300 --method lloyd --first random --iterations 12 -o lloyd.nodes.nc
-  "$PSTRIPACK" -q scvt 300 --method lloyd --first random --iterations 9 --checkpoint checkpoint.nc --every 4 -o short.ugrid.nc
+  "$PSTRIPACK" -q scvt 300 --method lloyd --first random --evaluations 12 -o lloyd.nodes.nc
+  "$PSTRIPACK" -q scvt 300 --method lloyd --first random --evaluations 9 --checkpoint checkpoint.nc --every 4 -o short.ugrid.nc
   for start in checkpoint.nc short.ugrid.nc; do
-    "$PSTRIPACK" scvt --start $start --method lloyd --iterations 12 -o resumed.nodes.nc 2> err
+    "$PSTRIPACK" scvt --start $start --method lloyd --evaluations 12 -o resumed.nodes.nc 2> err
     grep -q " 12 evaluations, " err || fail "$(cat err)"
     same lloyd.nodes.nc resumed.nodes.nc
   done
@@ -507,7 +471,7 @@ scvt)
   "$PSTRIPACK" scvt 3000 --density bump --tolerance 1e-12 --time-limit 0.1 -o limit.off 2> err
   grep -q " ended by --time-limit, NOT converged to 1e-12: gradient " err || fail "$(cat err)"
   # Formats without density, other threads, a tolerance that is reached.
-  "$PSTRIPACK" -q --threads 3 scvt 300 --density bump --iterations 30 --tolerance 1e-6 -o threads.txt
+  "$PSTRIPACK" -q --threads 3 scvt 300 --density bump --evaluations 30 --tolerance 1e-6 -o threads.txt
   "$PSTRIPACK" -q convert direct.nodes.nc -o direct.txt
   cmp direct.txt threads.txt
   "$PSTRIPACK" scvt 50 --tolerance 0.1 -o loose.off 2> err
@@ -516,8 +480,6 @@ scvt)
   for first in front levels random; do "$PSTRIPACK" -q scvt 3e3 --first $first --evaluations 1 --tolerance 0.01 -o $first.txt; done
   "$PSTRIPACK" -q scvt 3000 --evaluations 1 --tolerance 0.01 -o by_number.txt
   cmp by_number.txt front.txt
-  "$PSTRIPACK" -q scvt 3000 --levels --evaluations 1 --tolerance 0.01 -o flag.txt
-  cmp flag.txt levels.txt
   "$PSTRIPACK" scvt 10242 --evaluations 0 -o ten.nodes.nc 2> err
   grep -q "^pstripack: N = 10 4^5 + 2: with --first levels all cells but 12 pentagons are hexagons$" err || fail "$(cat err)"
   "$PSTRIPACK" scvt 10242 --first levels -o ten.off 2> err
@@ -531,13 +493,13 @@ scvt)
   # A density in a file, here constant; the output stores the file's name.
   "$PSTRIPACK" -q points latlon 100 | sed 's/$/ 2/' > two.txt
   "$PSTRIPACK" -q points random 300 -o start.txt
-  "$PSTRIPACK" -q scvt --start start.txt --density-file two.txt --iterations 5 -o file.nodes.nc
-  "$PSTRIPACK" -q scvt --start start.txt --iterations 5 -o constant.nodes.nc
+  "$PSTRIPACK" -q scvt --start start.txt --density-file two.txt --evaluations 5 -o file.nodes.nc
+  "$PSTRIPACK" -q scvt --start start.txt --evaluations 5 -o constant.nodes.nc
   for run in file constant; do "$PSTRIPACK" -q convert $run.nodes.nc -o - --to lonlat | cut -c 1-9 > $run.txt; done
   cmp file.txt constant.txt
-  "$PSTRIPACK" -q scvt 300 --density-file two.txt --first random --iterations 6 --checkpoint checkpoint.nc --every 1 -o six.nodes.nc
-  "$PSTRIPACK" -q scvt --start checkpoint.nc --iterations 8 -o more.nodes.nc
-  "$PSTRIPACK" -q scvt 300 --density-file two.txt --first random --iterations 8 -o eight.nodes.nc
+  "$PSTRIPACK" -q scvt 300 --density-file two.txt --first random --evaluations 6 --checkpoint checkpoint.nc --every 1 -o six.nodes.nc
+  "$PSTRIPACK" -q scvt --start checkpoint.nc --evaluations 8 -o more.nodes.nc
+  "$PSTRIPACK" -q scvt 300 --density-file two.txt --first random --evaluations 8 -o eight.nodes.nc
   same more.nodes.nc eight.nodes.nc
   # Of any size (issue 39: "converged", gradient nan). Generators that are copies of poles up to rounding.
   for value in 1e-200 1e308; do
@@ -549,7 +511,7 @@ scvt)
   "$PSTRIPACK" scvt --start copies.txt --tolerance 1e-2 -o copies.nodes.nc 2> err
   grep -q "10 generators, .* converged to 0.01: gradient 0.00[0-9]*, energy 2" err || fail "copies: $(cat err)"
   rm two.txt
-  refuses 1 "two.txt: cannot be opened" scvt --start file.nodes.nc --iterations 7 -o failed.nc
+  refuses 1 "two.txt: cannot be opened" scvt --start file.nodes.nc --evaluations 7 -o failed.nc
   # Meshes for MPAS are well centred, others on request.
   bump="scvt 1000 --density bump:0,30,30,10,4 --tolerance 1e-3"
   # shellcheck disable=SC2086
@@ -582,21 +544,21 @@ scvt)
   grep -q "the widths give 589 cells; 147 are asked for: widths times 2.002$" err || fail "$(cat err)"
   # Discs and bands.
   disc="disc:500,2000,3000,1000,20,40"
-  "$PSTRIPACK" scvt --width $disc --iterations 6 --checkpoint checkpoint.nc --every 1 -o six.nodes.nc 2> err
+  "$PSTRIPACK" scvt --width $disc --evaluations 6 --checkpoint checkpoint.nc --every 1 -o six.nodes.nc 2> err
   grep -q "^pstripack: transition made 11250 km long, so that widths change by at most 0.2 km per km$" err || fail "$(cat err)"
   grep -q "^pstripack: the widths give 618 cells$" err || fail "$(cat err)"
-  "$PSTRIPACK" -q scvt --width $disc --iterations 8 -o eight.nodes.nc
-  "$PSTRIPACK" -q scvt --start checkpoint.nc --iterations 8 -o more.nodes.nc
+  "$PSTRIPACK" -q scvt --width $disc --evaluations 8 -o eight.nodes.nc
+  "$PSTRIPACK" -q scvt --start checkpoint.nc --evaluations 8 -o more.nodes.nc
   same more.nodes.nc eight.nodes.nc
   # Polygons with a width each.
   region='{"type": "Feature", "properties": {"width": 400, "transition": "2000"}, "geometry": {"type": "Polygon", "coordinates": [[[0, 20], [60, 20], [60, 50], [0, 50], [0, 20]]]}}'
   echo "{\"type\": \"FeatureCollection\", \"features\": [$region]}" > region.json
-  "$PSTRIPACK" scvt --width 1000km --width-region region.json --iterations 3 --checkpoint region.nc --every 1 -o region.nodes.nc 2> err
+  "$PSTRIPACK" scvt --width 1000km --width-region region.json --evaluations 3 --checkpoint region.nc --every 1 -o region.nodes.nc 2> err
   grep -q "^pstripack: widths limited to a change of 0.2 km per km: .* values lowered" err || fail "$(cat err)"
   grep -q "^pstripack: the widths give 808 cells$" err || fail "$(cat err)"
   echo "$region" > region.json
-  "$PSTRIPACK" -q scvt --start region.nc --iterations 5 -o more.nodes.nc
-  "$PSTRIPACK" -q scvt --width 1000km --width-region region.json --iterations 5 -o region.nodes.nc
+  "$PSTRIPACK" -q scvt --start region.nc --evaluations 5 -o more.nodes.nc
+  "$PSTRIPACK" -q scvt --width 1000km --width-region region.json --evaluations 5 -o region.nodes.nc
   same more.nodes.nc region.nodes.nc
   if command -v ncgen > /dev/null; then  # Debian: netcdf-bin
     # cellWidth(lat, lon) as mpas_tools writes it: no units, the first meridian repeated. Here 1000 km everywhere.
@@ -623,10 +585,10 @@ scvt)
     "$PSTRIPACK" scvt --width-file step.nc --tolerance 0.1 -o step.nodes.nc 2> err
     limited="^pstripack: widths limited to a change of"
     grep -q "$limited 0.2 km per km: 17 of 42 values lowered, by up to 2333 km (lon -180 lat -30)$" err || fail "$(cat err)"
-    "$PSTRIPACK" -q scvt --width-file step.nc --grade 0.1 --radius 5e6 --iterations 6 --checkpoint checkpoint.nc --every 1 -o six.nodes.nc
-    "$PSTRIPACK" scvt --start checkpoint.nc --iterations 8 -o more.nodes.nc 2> err
+    "$PSTRIPACK" -q scvt --width-file step.nc --grade 0.1 --radius 5e6 --evaluations 6 --checkpoint checkpoint.nc --every 1 -o six.nodes.nc
+    "$PSTRIPACK" scvt --start checkpoint.nc --evaluations 8 -o more.nodes.nc 2> err
     grep -q "$limited 0.1 km per km: 17 of 42 values lowered, by up to 2738 km" err || fail "$(cat err)"
-    "$PSTRIPACK" -q scvt --width-file step.nc --grade 0.1 --radius 5e6 --iterations 8 -o eight.nodes.nc
+    "$PSTRIPACK" -q scvt --width-file step.nc --grade 0.1 --radius 5e6 --evaluations 8 -o eight.nodes.nc
     same more.nodes.nc eight.nodes.nc
   fi
   # A density on a grid.
@@ -635,10 +597,10 @@ scvt)
   "$PSTRIPACK" scvt 300 --density-file grid.nc --variable value -o grid.mpas.nc 2> err
   grep -q " converged to 0.0001: " err || fail "$(cat err)"
   # A limited area: the same bytes in pieces; checkpoints have all generators.
-  "$PSTRIPACK" scvt --width 300km --region 10,50,10,50 --iterations 3 --checkpoint area.nc --every 1 -o area.nodes.nc 2> err
+  "$PSTRIPACK" scvt --width 300km --region 10,50,10,50 --evaluations 3 --checkpoint area.nc --every 1 -o area.nodes.nc 2> err
   grep -q "the widths give about 21[0-9] cells in the region" err || fail "no number of cells: $(cat err)"
-  "$PSTRIPACK" -q scvt --start area.nc --iterations 5 -o more.nodes.nc
-  "$PSTRIPACK" -q scvt --width 300km --region 10,50,10,50 --iterations 5 -o area.nodes.nc
+  "$PSTRIPACK" -q scvt --start area.nc --evaluations 5 -o more.nodes.nc
+  "$PSTRIPACK" -q scvt --width 300km --region 10,50,10,50 --evaluations 5 -o area.nodes.nc
   same more.nodes.nc area.nodes.nc
   ;;
 
@@ -649,7 +611,6 @@ bad_scvt)
   refuses 2 "density 'potato': expected constant, bump or bump:LON,LAT" scvt 10 --density potato -o failed.off
   refuses 2 "excludes" scvt 10 --density bump --density-file start.txt -o failed.off
   refuses 2 "no format has this suffix" scvt 10 -o failed.xxx
-  refuses 2 "excludes" scvt 10 --levels --first front -o failed.off
   refuses 2 "--first: 'middle' is none of front, levels, random" scvt 10 --first middle -o failed.off
   refuses 2 "--method: 'steepest' is none of lloyd, newton" scvt 10 --method steepest -o failed.off
   refuses 2 "'1.5' is not a whole number" scvt 1.5 -o failed.off
@@ -661,7 +622,7 @@ bad_scvt)
   refuses 1 "half_density.txt: the density is not known on the whole sphere: the nodes leave out lon " scvt 10 --density-file half_density.txt -o failed.off
   { octahedron; octahedron; } > twice.txt
   refuses 1 "twice.txt: node 1 (line 1) and node 7 (line 7) are in the same place" scvt --start twice.txt -o failed.off
-  "$PSTRIPACK" -q scvt --start twice.txt --drop-duplicates -o once.off
+  "$PSTRIPACK" -q scvt --start twice.txt --duplicates first -o once.off
   octahedron | sed '4s/$/ 0/; 4!s/$/ 1/' > zero.txt
   refuses 1 "zero.txt: node 4 (line 4): density 0: must be positive" scvt 10 --density-file zero.txt -o failed.off
   octahedron | sed '/-/s/$/ 1e-290/; /-/!s/$/ 1e290/' > ratio.txt
@@ -670,7 +631,7 @@ bad_scvt)
   refuses 1 "the energy is beyond the largest double" scvt 4 --density-file huge.txt -o failed.off
   refuses 2 "--tolerance: 'nan' is not a number of at least 0" scvt 10 --tolerance nan -o failed.off
   octahedron | sed 's/$/ 1/' > one.txt
-  "$PSTRIPACK" -q interpolate one.txt --to-grid 9x9 --region 0,90,0,90 -o regional.nc
+  "$PSTRIPACK" -q interpolate one.txt --to-grid 9x9 --box 0,90,0,90 -o regional.nc
   refuses 1 "regional.nc: the grid leaves out 280 degrees of longitude: a density must cover the sphere" \
     scvt 10 --density-file regional.nc --variable value -o failed.off
   printf '100 80 60\n190 0 60\n10 -80 60\n' > width.txt
@@ -747,7 +708,7 @@ bad_scvt)
   refuses 1 "area.json: feature 1: a hole, at lon 10 lat 10: a limited area has one boundary: leave out all rings but the first" \
     scvt --width 300km --region area.json -o failed.nc
   polygon '[[[0,0],[40,40],[40,0],[0,40],[0,0]]]'
-  refuses 1 "its sides from corner 1 (lon 0 lat 0) and from corner 3 (lon 40 lat 0) cross: put the corners in order" \
+  refuses 1 "area.json: feature 1: side 1 from 0,0 to 40,40 crosses or lies on side 3 from 40,0 to 0,40: mend the polygon" \
     convert sphere.nc --region area.json -o failed.nc
   polygon '[[[0,0],[0.7,0],[0.7,0.7],[0,0]]]'
   refuses 1 "within pi/2: GeoJSON is in degrees; if these are degrees, say --units degrees" scvt --width 10km --region area.json -o failed.nc
@@ -798,22 +759,22 @@ interpolate)
   [ "$outside" -gt 600 ] && [ "$(grep -c ' nan$' missing.txt)" = "$outside" ] || fail "$(cat err)"
   "$PSTRIPACK" -q interpolate region.txt --grid-step 10 --outside nearest -o nearest.txt
   ! grep nan nearest.txt || fail "a value is missing"
-  "$PSTRIPACK" -q interpolate region.txt --to-grid 2x3 --region 10,40,-20,0 -o grid.txt --outside nearest
+  "$PSTRIPACK" -q interpolate region.txt --to-grid 2x3 --box 10,40,-20,0 -o grid.txt --outside nearest
   [ "$(awk '!/#/ { print $1, $2 }' grid.txt | tr '\n' ',')" = "15 -15,25 -15,35 -15,15 -5,25 -5,35 -5," ] || fail "$(cat grid.txt)"
   # The nearest node, also beyond the region: its value, number and distance.
   { echo "lon,lat,v"; printf '%s\n' 10,0,1 ,0,9 12,0,2 10,2,3 12,0,2; } > few.csv
   printf 'lon,lat,nearest_km\n10,-1,a\n100,0,b\n' > two.csv
-  "$PSTRIPACK" -q interpolate few.csv --units degrees --skip-missing --drop-duplicates --method nearest --nearest-node --to-points two.csv -o out.csv
+  "$PSTRIPACK" -q interpolate few.csv --units degrees --skip-missing --duplicates first --method nearest --nearest-node --to-points two.csv -o out.csv
   cut -d , -f 1-4,6 out.csv | tail -n +2 | tr '\n' ' ' > got
   [ "$(cat got)" = "10,-1,1,1,a 100,0,2,3,b " ] || fail "$(cat out.csv)"
   awk -F , 'NR == 2 && ($5 - 111.19492664455873) ^ 2 > 1e-20 || NR == 3 && ($5 - 88 * 111.19492664455873) ^ 2 > 1e-18' out.csv > wrong
   [ ! -s wrong ] || fail "$(cat wrong)"
-  "$PSTRIPACK" -q interpolate few.csv --units degrees --skip-missing --drop-duplicates --grid-step 90 --nearest-node -o out.txt
+  "$PSTRIPACK" -q interpolate few.csv --units degrees --skip-missing --duplicates first --grid-step 90 --nearest-node -o out.txt
   [ "$(head -n 1 out.txt)" = "# lon lat v nearest_node nearest_km [km]" ] || fail "$(head -n 1 out.txt)"
   # Missing values and duplicates.
   { sed -n 1p region.txt; sed '5s/[^ ]*$/nan/' region.txt; } > odd.txt
   "$PSTRIPACK" -q points cap:0.3 100 -o places.txt
-  "$PSTRIPACK" interpolate odd.txt --skip-missing --drop-duplicates --to-points places.txt -o out.txt 2> err
+  "$PSTRIPACK" interpolate odd.txt --skip-missing --duplicates first --to-points places.txt -o out.txt 2> err
   grep -q "odd.txt: 1 node without value left out" err || fail "$(cat err)"
   grep -q "odd.txt: 1 node dropped that coincides with earlier ones" err || fail "$(cat err)"
   awk '!/#/ && NR != 6 && $3 != NR - 1' out.txt > wrong  # all but the fifth, which had none
@@ -835,22 +796,14 @@ bad_values)
   refuses 2 "--grid-step: '-1' is not a number of degrees above 0" interpolate values.txt --grid-step -1 -o failed.txt
   refuses 2 "'180' is not 2 numbers" interpolate values.txt --to-grid 180 -o failed.txt
   refuses 2 "expected NLATxNLON" interpolate values.txt --to-grid 0x10 -o failed.txt
-  refuses 2 "expected WEST,EAST,SOUTH,NORTH" interpolate values.txt --grid-step 1 --region 0,10,20,10 -o failed.txt
+  refuses 2 "expected WEST,EAST,SOUTH,NORTH" interpolate values.txt --grid-step 1 --box 0,10,20,10 -o failed.txt
   refuses 2 "neither .nc nor .txt nor .csv: give --to" interpolate values.txt --grid-step 30 -o failed.xxx
   octahedron > bare.txt
   refuses 1 "may be degrees or radians" interpolate bare.txt --grid-step 30 -o failed.txt
   printf '10 20\n30 40\n' > two.txt
   refuses 1 "two.txt: has 2 columns; expected 'lon lat value' or 'x y z value'" interpolate two.txt --grid-step 30 -o failed.txt
-  printf '10 20 1 2 3\n30 40 1 2 3\n' > five.txt
-  refuses 1 "of more columns say --coordinates and --variable" interpolate five.txt --grid-step 30 -o failed.txt
-  refuses 1 "five.txt: has 5 columns; column 2 is a coordinate, not a value" interpolate five.txt --coordinates lonlat --variable 2 --grid-step 30 -o failed.txt
-  refuses 1 "five.txt: --variable names one column, not '4,5'" interpolate five.txt --coordinates lonlat --variable 4,5 --grid-step 30 -o failed.txt
-  refuses 1 "there is no value in column 9" interpolate five.txt --coordinates lonlat --variable 9 --grid-step 30 -o failed.txt
-  refuses 1 "is the number of a column, not 'depth'" interpolate five.txt --coordinates lonlat --variable depth --grid-step 30 -o failed.txt
-  printf '10 20 1\nnan 40 1\n' > place.txt
-  refuses 1 "place.txt: node 2 (line 2): its place is 'nan': remove the row, or say --skip-missing" interpolate place.txt --grid-step 30 -o failed.txt
   { octahedron; octahedron; } | sed 's/$/ 1/' > twice.txt
-  refuses 1 "are in the same place: remove one, or say --drop-duplicates" interpolate twice.txt --grid-step 30 -o failed.txt
+  refuses 1 "are in the same place: remove one, or say --duplicates first" interpolate twice.txt --grid-step 30 -o failed.txt
   "$PSTRIPACK" -q points cap:0.3 100 | sed 's/$/ 1/' > region.txt
   refuses 1 "places lie outside the nodes of region.txt, the first is place 1, lon -165 lat -75: --outside missing or nearest" \
     interpolate region.txt --grid-step 30 --outside error -o failed.txt
@@ -927,7 +880,7 @@ tables)
   printf '\357\273\277time,latitude,longitude,mag,place\r\n' > quakes.csv
   printf '2020-01-01,61.2,-150.1,4.5,"10 km S of ""A"", #2"\r\n2020-01-02,40,30,3,\r\n,-10.3,170.7,,Fiji\r\n' >> quakes.csv
   printf '2020-01-04,40,30,5,"again"\r\n2020-01-05,50.1,20.3,1,e\r\n' >> quakes.csv
-  refuses 1 "node 2 (line 3) and node 4 (line 5) are in the same place: remove one, or say --drop-duplicates" triangulate quakes.csv -o mesh.vtu
+  refuses 1 "node 2 (line 3) and node 4 (line 5) are in the same place: remove one, or say --duplicates first" triangulate quakes.csv -o mesh.vtu
   refuses 1 "are in the same place" triangulate quakes.csv --duplicates error -o mesh.vtu
   values_of() { tr '\n' ' ' < mesh.vtu | sed "s/.*Name=\"$1\" format=\"ascii\"> \([^<]*\) <.*/\1/"; }
   for rule in first mean; do
@@ -940,11 +893,11 @@ tables)
     [ $rule = first ] || expected="4.5 4 nan 1"
     [ "$(values_of mag)" = "$expected" ] || fail "mag: $(values_of mag)"
   done
-  "$PSTRIPACK" -q triangulate quakes.csv --drop-duplicates --list-duplicates dropped.csv -o mesh.vtu
+  "$PSTRIPACK" -q triangulate quakes.csv --duplicates first --list-duplicates dropped.csv -o mesh.vtu
   [ "$(cat dropped.csv)" = "$(printf 'lon,lat,node,kept,line,time,mag,place\n30,40,4,2,5,2020-01-04,5,again')" ] || fail "$(cat dropped.csv)"
   "$PSTRIPACK" -q interpolate quakes.csv --variable mag --skip-missing --duplicates mean --list-duplicates dropped.geojson --to-points quakes.csv -o out.txt
   grep -q '"node":4,"kept":2,"line":5,"mag":5}.*"coordinates":\[30,40\]' dropped.geojson || fail "$(cat dropped.geojson)"
-  printf '10 20\n100 40\n20 -50\n' | "$PSTRIPACK" -q triangulate - --drop-duplicates --list-duplicates none.csv -o mesh.off
+  printf '10 20\n100 40\n20 -50\n' | "$PSTRIPACK" -q triangulate - --duplicates first --list-duplicates none.csv -o mesh.off
   [ "$(wc -l < none.csv)" = 1 ] || fail "$(cat none.csv)"
   refuses 2 "--list-duplicates: lists what --duplicates first or mean drops" triangulate quakes.csv --list-duplicates none.csv -o failed.vtu
   "$PSTRIPACK" -q info quakes.csv > info.txt
@@ -967,10 +920,10 @@ tables)
   printf 'name,lon,lat,t\na,10,20,1\nb,,30,2\nc,100,40,3\nd,20,-50,\ne,NA,5,5\nf,100,40,7\ng,170,5,7\nh,80,7,7\n' > gaps.csv
   refuses 1 "gaps.csv:3: nothing in column 'lon': remove the row, say --skip-missing" triangulate gaps.csv -o failed.vtu
   refuses 1 "gaps.csv: node 3 (line 4) and node 6 (line 7) are in the same place" -q triangulate gaps.csv --skip-missing -o failed.vtu
-  "$PSTRIPACK" triangulate gaps.csv --skip-missing --drop-duplicates -o mesh.vtu 2> err
+  "$PSTRIPACK" triangulate gaps.csv --skip-missing --duplicates first -o mesh.vtu 2> err
   grep -q "gaps.csv: 2 nodes without place left out" err || fail "$(cat err)"
   [ "$(values_of node)" = "1 3 4 7 8" ] || fail "node: $(values_of node)"
-  "$PSTRIPACK" interpolate gaps.csv --variable t --skip-missing --drop-duplicates --to-points gaps.csv -o out.txt 2> err
+  "$PSTRIPACK" interpolate gaps.csv --variable t --skip-missing --duplicates first --to-points gaps.csv -o out.txt 2> err
   grep -q "gaps.csv: 1 node without value left out" err && [ "$(grep -c "gaps.csv: 2 nodes without place left out" err)" = 2 ] ||
     fail "$(cat err)"
   [ "$(awk '!/#/ { print $3 }' out.txt | tr '\n' ' ')" = "1 3 nan 3 7 7 " ] || fail "$(cat out.txt)"
@@ -982,35 +935,6 @@ tables)
   ;;
 
 bad_tables)
-  # refused STATUS WORDS ARGUMENTS < table: triangulate ends with this status and words and writes no mesh
-  refused() {
-    status=$1 expected_words=$2
-    shift 2
-    cat > table.txt
-    refuses "$status" "table.txt:$expected_words" triangulate table.txt -o mesh.off "$@"
-    [ ! -e mesh.off ] || fail "mesh.off was written"
-  }
-  printf 'lon,lat\n' | refused 1 "1: a header line, and no row of numbers after it: add the nodes"
-  printf 'lon,lat\nlon,lat\n1,2\n' | refused 1 "2: a second header line, after the one in line 1: remove one of them"
-  printf 'lon,lat\n1,2\n3;4\n' | refused 1 "3: separated by semicolons, the lines before by commas: use one separator"
-  printf 'lon,lat,mag\n1,2,3\n' | refused 1 "1: there is no column 'mga'; did you mean mag?" --columns lon,lat,mga
-  printf 'lon,lat,lat\n1,2,3\n' | refused 1 "1: the header names column 'lat' twice, 2 and 3: choose columns by number"
-  printf 'lon,mag\n1,2\n' | refused 1 "1: a column 'lon' without a latitude: name both by --columns LON,LAT"
-  printf '45N 120W\n' | refused 1 "1: '45N' is not a finite number: write 45N as 45, 45S as -45, 120W as -120"
-  printf '80 100\n20 10\n30 40\n' | refused 1 " node 1 (line 1): latitude 100 is beyond the pole: the columns are 'lon lat', in degrees; are they exchanged? Then say --columns 2,1"
-  printf 'lat,mag,lon\n95,1,10\n20,1,30\n' | refused 1 " node 1 (line 2): latitude 95 is beyond the pole: the columns are 'lon lat', in degrees; are they exchanged? Then say --columns 1,3"
-  printf '10 20\n30 x\n' | refused 1 "2: 'x' is not a finite number: correct it, remove the row, or choose other --columns"
-  printf '10,5\t20,1\n30,1\t40,2\n' | refused 1 "1: '5\t20' is not a finite number: write a decimal comma as a point"
-  printf 'lon lat\n10,5 20,1\n' | refused 1 "2: found 4 columns where the header has 2: write a decimal comma as a point"
-  printf 'lon,lat,mag\n1,2,3\n4,5\n' | refused 1 "3: found 2 columns where the header has 3: complete the row, or remove it"
-  printf '5\n1 2\n3 4\n' | refused 1 "1: a single number is the count of the points that follow; there are 2: correct or remove it"
-  printf 'lon,lat\r10,20\r30,40\r' | refused 1 "1: lines end with CR alone: end them with LF, for example by \`tr '\\r' '\\n'\`"
-  printf '\037\213\010abc' | refused 1 " compressed by gzip: use \`gunzip\` first"
-  printf 'PK\003\004xx' | refused 1 " binary, but not NetCDF"
-  awk 'BEGIN { for (k = 1; k < 50; ++k) printf "c%d,", k; print "c50"; for (k = 1; k < 50; ++k) printf "1,"; print 1 }' |
-    refused 1 "1: no columns named lon and lat, or x, y and z: name them by --columns; the header has c1, c2, "
-  grep -q ", c29, c30 and 20 more$" err || fail "$(cat err)"
-  refuses 2 "--duplicates" triangulate table.txt --duplicates last -o mesh.off
   # What would take any memory.
   awk 'BEGIN { print "lon,lat,note"; for (k = 0; k < 4000; ++k) printf "%d,%d,a%d\n", k % 360, k / 50, k
     printf "7.5,80.5,"; for (k = 0; k < 20000; ++k) printf "x"; print "" }' > notes.csv
@@ -1054,7 +978,7 @@ maps)
   "$PSTRIPACK" -q convert parts.csv -o again.csv
   printf '{"type":"Polygon","coordinates":[[[0,10],[10,40],[20,10],[-5,30],[25,30],[0,10]]]}' > star.json
   refuses 1 "star.json: feature 1: side 1 from 0,10 to 10,40 crosses or lies on side 4 from -5,30 to 25,30: mend the polygon" voronoi nodes.txt --clip-to star.json -o failed.csv
-  refuses 2 "--clip-to: cuts whole cells: leave out --region and --clip-to-hull" voronoi nodes.txt --clip-to two.json --clip-to-hull -o failed.csv
+  refuses 2 "--clip-to: polygons cut whole cells: leave out --clip-to-hull" voronoi nodes.txt --clip-to two.json --clip-to-hull -o failed.csv
   refuses 1 "missing.json: cannot be opened" voronoi nodes.txt --clip-to missing.json -o failed.csv
   # Links with their lengths, the hull, and triangles without long sides.
   "$PSTRIPACK" -q triangulate table.csv --what links -o links.geojson
@@ -1076,11 +1000,11 @@ maps)
   left=$(sed -n 's/^pstripack: nodes.txt: \([0-9]*\) triangles with a side longer than 60deg left out$/\1/p' err)
   [ "$(wc -l < some.csv)" = $((37 - left)) ] || fail "$left $(wc -l < some.csv)"
   # A region within one cell.
-  "$PSTRIPACK" -q voronoi table.csv --region 0,0.1,10,10.1 -o one.geojson
+  "$PSTRIPACK" -q voronoi table.csv --clip-to 0,0.1,10,10.1 -o one.geojson
   [ "$(grep -c '"Feature"' one.geojson)" = 1 ] || fail "$(cat one.geojson)"
   for corner in 0,10 0.1,10 0.1,10.1 0,10.1; do grep -qF "[$corner]" one.geojson || fail "no $corner: $(cat one.geojson)"; done
   # Other formats also get the cut cells. If the nodes surround the sphere, the hull cuts nothing.
-  for suffix in vtu off gmt; do "$PSTRIPACK" -q voronoi table.csv --region 170,-170,-20,20 -o part.$suffix; done
+  for suffix in vtu off gmt; do "$PSTRIPACK" -q voronoi table.csv --clip-to 170,-170,-20,20 -o part.$suffix; done
   [ "$(head -n 2 part.off | tail -n 1 | cut -d ' ' -f 2)" = 3 ] || fail "$(head -n 2 part.off)"
   "$PSTRIPACK" -q voronoi nodes.txt -o whole.off
   "$PSTRIPACK" voronoi nodes.txt --clip-to-hull -o hull.off 2> err
@@ -1095,11 +1019,11 @@ maps)
 huge_cells)
   # Stations of a region, whose outer cells reach around the sphere. On a whole sphere no cell is huge.
   awk 'BEGIN { srand(1); for (i = 0; i < 60; ++i) print 129 + 16 * rand(), 31 + 14 * rand() }' > stations.lonlat
-  for cut in "" --clip-to-hull "--region 129,145,31,45" -q; do
+  for cut in "" --clip-to-hull "--clip-to 129,145,31,45" -q; do
     # shellcheck disable=SC2086
     "$PSTRIPACK" voronoi stations.lonlat $cut -o cells.geojson 2> err
     case $cut in "") expected=1 ;; *) expected=0 ;; esac
-    [ "$(grep -c 'pstripack: stations.lonlat: the cell of node [0-9]* has [0-9]* km2, [0-9]* times the median: .* --region or --clip-to-hull$' err)" = $expected ] ||
+    [ "$(grep -c 'pstripack: stations.lonlat: the cell of node [0-9]* has [0-9]* km2, [0-9]* times the median: .* --clip-to or --clip-to-hull$' err)" = $expected ] ||
       fail "$cut: $(cat err)"
   done
   "$PSTRIPACK" -q points random 5000 -o nodes.txt
@@ -1164,7 +1088,6 @@ geojson)
   point Point '[1, 2]' | refused " the coordinates are those of the geometry: give --columns lon,lat,NAME" --columns mag
   point Point '[1, 2]' | refused " --coordinates xyz needs the property 'x'" --coordinates xyz
   printf '1 2\n' | refused "1: not valid JSON" --from geojson
-  awk 'BEGIN { for (i = 0; i < 75000; ++i) printf "{\"a\":[" }' | refused " JSON with more than 100 levels of brackets"
   printf '{"type": "%0100d\\n"}' 0 |
     refused " not GeoJSON of points: the type is '$(printf %060d 0)...', expected FeatureCollection"
   refuses 1 "no property 'place' is a number; properties that are numbers: depth" interpolate nodes.geojson --variable place --to-grid 2x2 -o failed.txt
@@ -1174,16 +1097,16 @@ geojson)
 bad_maps)
   octahedron > nodes.txt
   printf '0 0\n10 0\n0 10\n3 3\n' > cap.lonlat
-  for region in 1,2,3 a,b,c,d 10,10,0,1 0,10,20,20 0,10,5,-5 0,10,-91,0 0,10,0,91 0,361,0,1 -200,170,0,1 nan,1,0,1 0,1,0,1,2; do
-    refuses 2 "--region: '$region'" voronoi nodes.txt --region=$region -o failed.geojson
+  for region in 1,2,3 10,10,0,1 0,10,20,20 0,10,5,-5 0,10,-91,0 0,10,0,91 0,361,0,1 -200,170,0,1 0,1,0,1,2; do
+    refuses 2 "--clip-to: '$region'" voronoi nodes.txt --clip-to=$region -o failed.geojson
   done
   grep -q "is not 4 numbers" err || fail "$(cat err)"
-  refuses 2 "170,-170 crosses the dateline" voronoi nodes.txt --region 0,10,5,-5 -o failed.geojson
+  refuses 2 "170,-170 crosses the dateline" voronoi nodes.txt --clip-to 0,10,5,-5 -o failed.geojson
   refuses 2 "there is no option --region" triangulate nodes.txt --region 0,10,0,10 -o failed.geojson
-  refuses 1 "cap.lonlat: no part of the hull of the nodes lies in the region" \
-    voronoi cap.lonlat --units degrees --clip-to-hull --region 100,110,0,10 -o failed.geojson
-  refuses 1 "nodes.txt: the region is smaller than 1e-10 degrees: make it larger" \
-    voronoi nodes.txt --region 0,1e-13,0,1e-13 -o failed.geojson
+  refuses 1 "cap.lonlat: no part of the hull of the nodes lies in the box" \
+    voronoi cap.lonlat --units degrees --clip-to-hull --clip-to 100,110,0,10 -o failed.geojson
+  refuses 1 "nodes.txt: the box is smaller than 1e-10 degrees: make it larger" \
+    voronoi nodes.txt --clip-to 0,1e-13,0,1e-13 -o failed.geojson
   printf '85 45\n-95 0\n-95 -45\n0 90\n' > circle.lonlat
   refuses 1 "circle.lonlat: the cell of node 1 reaches halfway around the sphere" \
     voronoi circle.lonlat --units degrees -o failed.geojson
@@ -1214,25 +1137,25 @@ grids)
   # Grids of nodes include the region's edges, but no meridian twice; grids of cells lie between the edges.
   "$PSTRIPACK" -q points random 300 | awk '{ printf "%s %.17g\n", $0, 1 + $1 + 2 * $3 }' > values.txt
   columns_of() { sed 1d "$2" | cut -d ' ' -f "$1" | sort -n | uniq | tr '\n' ' '; }
-  "$PSTRIPACK" -q interpolate values.txt --registration node --region 170,-170,-30,-10 --grid-step 10 -o part.txt
+  "$PSTRIPACK" -q interpolate values.txt --registration node --box 170,-170,-30,-10 --grid-step 10 -o part.txt
   [ "$(columns_of 1 part.txt)|$(columns_of 2 part.txt)" = "170 180 190 |-30 -20 -10 " ] || fail "$(cat part.txt)"
-  "$PSTRIPACK" -q interpolate values.txt --region 170,-170,-30,-10 --grid-step 10 -o cells.txt
+  "$PSTRIPACK" -q interpolate values.txt --box 170,-170,-30,-10 --grid-step 10 -o cells.txt
   [ "$(columns_of 1 cells.txt)|$(columns_of 2 cells.txt)" = "175 185 |-25 -15 " ] || fail "$(cat cells.txt)"
-  "$PSTRIPACK" -q interpolate values.txt --registration node --to-grid 3x3 --region 170,-170,-30,-10 -o same.txt
+  "$PSTRIPACK" -q interpolate values.txt --registration node --to-grid 3x3 --box 170,-170,-30,-10 -o same.txt
   cmp part.txt same.txt
   # The same values for equal meridians with other numbers.
-  "$PSTRIPACK" -q interpolate values.txt --registration node --region=-190,-170,-30,-10 --grid-step 10 -o west.txt
+  "$PSTRIPACK" -q interpolate values.txt --registration node --box=-190,-170,-30,-10 --grid-step 10 -o west.txt
   cut -d ' ' -f 3 part.txt > a
   cut -d ' ' -f 3 west.txt | cmp a -
   for method in linear natural cubic; do
-    "$PSTRIPACK" -q interpolate values.txt --method $method --registration node --region 0,360,-90,90 --grid-step 30 -o all.txt
+    "$PSTRIPACK" -q interpolate values.txt --method $method --registration node --box 0,360,-90,90 --grid-step 30 -o all.txt
     [ "$(columns_of 1 all.txt)" = "0 30 60 90 120 150 180 210 240 270 300 330 " ] || fail "$(columns_of 1 all.txt)"
     [ "$(columns_of 2 all.txt)" = "-90 -60 -30 0 30 60 90 " ] || fail "$(columns_of 2 all.txt)"
     for pole in -90 90; do  # one place, one value
       [ "$(awk -v pole=$pole '$2 == pole { print $3 }' all.txt | uniq | wc -l)" = 1 ] || fail "$method: $(cat all.txt)"
     done
   done
-  "$PSTRIPACK" -q interpolate values.txt --method cubic --registration node --region 0,360,-90,90 --to-grid 7x12 -o same.txt
+  "$PSTRIPACK" -q interpolate values.txt --method cubic --registration node --box 0,360,-90,90 --to-grid 7x12 -o same.txt
   cmp all.txt same.txt
   # CSV: a header, and nothing where a value is missing.
   "$PSTRIPACK" -q points cap:0.3 50 | sed 's/$/ 7/' > region.txt
@@ -1240,7 +1163,7 @@ grids)
   [ "$(head -n 2 region.csv | tr '\n' ' ')" = "lon,lat,value -165,-75, " ] || fail "$(cat region.csv)"
   refuses 2 "--registration: is of a grid" interpolate values.txt --to-points values.txt --registration node -o failed.txt
   refuses 2 "expected NLATxNLON" interpolate values.txt --to-grid 1x5 --registration node -o failed.txt
-  refuses 2 "--region: '5,5,0,1': expected WEST,EAST,SOUTH,NORTH" interpolate values.txt --grid-step 1 --region 5,5,0,1 -o failed.txt
+  refuses 2 "--box: '5,5,0,1': expected WEST,EAST,SOUTH,NORTH" interpolate values.txt --grid-step 1 --box 5,5,0,1 -o failed.txt
   refuses 2 "neither .nc nor .txt nor .csv" interpolate values.txt --grid-step 30 -o failed.xxx
   ;;
 
@@ -1273,7 +1196,7 @@ ranks)
   "$PSTRIPACK" -q triangulate nodes.txt -o serial.lists
   "$PSTRIPACK" -q triangulate few.txt -o few.lists
   "$PSTRIPACK" -q voronoi nodes.txt -o serial.off
-  "$PSTRIPACK" -q scvt 500 --density bump --iterations 5 --checkpoint checkpoint.off --every 2 -o serial.txt
+  "$PSTRIPACK" -q scvt 500 --density bump --evaluations 5 --checkpoint checkpoint.off --every 2 -o serial.txt
   for n in 1 2 3; do
     run $n triangulate nodes.txt -o ranks.lists 2> err
     [ "$(grep -c ^pstripack: err)" = 1 ] || fail "$n ranks: $(cat err)"
@@ -1281,7 +1204,7 @@ ranks)
     cmp serial.lists ranks.lists
     run $n -q voronoi nodes.txt -o ranks.off
     cmp serial.off ranks.off
-    run $n -q scvt 500 --density bump --iterations 5 --checkpoint ranks.off --every 2 -o ranks.txt
+    run $n -q scvt 500 --density bump --evaluations 5 --checkpoint ranks.off --every 2 -o ranks.txt
     cmp serial.txt ranks.txt
     cmp checkpoint.off ranks.off
     [ "$(run $n -q points random 10 | wc -l)" = 10 ] || fail "points, by $n ranks"
@@ -1374,14 +1297,6 @@ scvt_ranks)
   "$PSTRIPACK" -q scvt --start front.nodes.nc --density bump --tolerance 1e-12 --evaluations 1000 -o direct.nodes.nc
   run 2 scvt --start ranks.nc --tolerance 1e-12 --evaluations 1000 -o resumed.nodes.nc
   same direct.nodes.nc resumed.nodes.nc
-  printf '%s\n' '0 0' '90 0' '180 0' '-90 0' '0 90' '0 -90' '0 9e-10' '90 9e-10' > near.txt
-  "$PSTRIPACK" -q convert near.txt --units degrees -o near.nodes.nc
-  for ranks in 1 3; do
-    # shellcheck disable=SC2086
-    $MPIRUN -n $ranks "$PSTRIPACK" scvt --start near.nodes.nc -o near.nc 2> err
-    grep -q "near.nodes.nc: 2 pairs of nodes are less than 1 mm apart on the Earth, but not in the same place: node 1 and node 7, ...; " err ||
-      fail "$ranks ranks: $(cat err)"
-  done
   # What several ranks cannot do: one message, exit code 1, no output file.
   octahedron > start.txt
   "$PSTRIPACK" -q points hemisphere 30 -o half.nodes.nc
@@ -1394,7 +1309,7 @@ scvt_ranks)
     [ ! -e failed.nc ] && [ ! -e failed.vtu ] || fail "$arguments: wrote a file"
   done <<END
 10 --first front -o failed.nc|--first front: a front is made by one process: \`pstripack scvt 10 --first front
---start start.txt --drop-duplicates -o failed.nc|several ranks cannot: \`pstripack convert start.txt --drop-duplicates
+--start start.txt --duplicates first -o failed.nc|several ranks cannot: \`pstripack convert start.txt --duplicates first
 10 -o failed.vtu|failed.vtu: several ranks write ugrid, mpas,
 10 -o no/failed.nc|no/failed.nc: cannot be written: No such file
 --start start.txt -o failed.nc|start.txt: several ranks read NetCDF, each its part: \`pstripack convert start.txt

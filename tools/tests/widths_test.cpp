@@ -236,9 +236,8 @@ TEST(widths_in, are_those_asked_for_in_the_area_and_ten_widths_around_it_then_gr
     double lon, lat;
     int towards;  // the outside: 1 northwards, -1 southwards
   };
-  for (const auto& [area, lon, lat, towards] : {Rim{disc, 170, 80 - 1000 * km, -1},
-                                                {cap, 33, 90 - 2000 * km, -1},
-                                                {box, 0, 15, 1}}) {
+  for (const auto& [area, lon, lat, towards] :
+       {Rim{disc, 170, 80 - 1000 * km, -1}, {cap, 33, 90 - 2000 * km, -1}, {box, 0, 15, 1}}) {
     const RegionalWidths regional = widths_in(area, WidthFormula(20).widths(6371), 0.2, 6371);
     const auto width = [&, lon = lon, lat = lat](double degrees) {
       const double density = regional.widths.density->at(point_sets::from_degrees(lon, lat + degrees));
