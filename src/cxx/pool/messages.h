@@ -4,6 +4,7 @@
 #include <signal.h>
 
 #include <cstdint>
+#include <type_traits>
 
 #include "parallel/cost.h"
 
@@ -25,6 +26,9 @@ struct PoolReply {
   std::int32_t ranks = 1;
   GroupCost cost;  ///< if requested
 };
+
+// Packets are sent as they stand in memory.
+static_assert(std::is_trivially_copyable_v<PoolRequest> && std::is_trivially_copyable_v<PoolReply>);
 
 // Between pstripack-run and the keeper (keeper.h).
 

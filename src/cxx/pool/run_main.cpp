@@ -352,6 +352,147 @@ class Mpirun {
   std::exit(WEXITSTATUS(status));
 }
 
+/// What the keeper has to know of this process.
+pstripack::Greeting greeting_of_this_process() {
+  pstripack::Greeting greeting;
+  for (int s = 1; s < NSIG; ++s)
+    if (struct sigaction action; sigaction(s, nullptr, &action) == 0 && action.sa_handler == SIG_IGN)
+      greeting.ignored |= std::uint64_t{1} << (s - 1);
+  greeting.ignored |= std::uint64_t{1} << (SIGTTOU - 1);  // a process in the background may write
+  return greeting;
+}
+
+/// Signals of the terminal, of batch systems and of the end of mpirun arrive in the file that is returned.
+Descriptor signals_as_file(sigset_t* before) {
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGTSTP, SIGCONT, SIGCHLD})
+    sigaddset(&signals, signal);
+  sigprocmask(SIG_BLOCK, &signals, before);
+  signal(SIGTTIN, SIG_IGN);
+  signal(SIGPIPE, SIG_IGN);
+  return Descriptor(signalfd(-1, &signals, SFD_CLOEXEC));
+}
+
+/// In the child: runs mpirun. `signals`: those blocked before.
+[[noreturn]] void become_mpirun(std::vector<std::string> words, bool open_mpi, const sigset_t& signals,
+                                const ErrorLines& errors) {
+  // What a terminal or timeout(1) sends to our group is for the model, not for mpirun.
+  setpgid(0, 0);
+  signal(SIGTTIN, SIG_DFL);
+  signal(SIGPIPE, SIG_DFL);
+  signal(SIGTTOU, SIG_IGN);
+  sigprocmask(SIG_SETMASK, &signals, nullptr);
+  errors.become_stderr();
+  if (!open_mpi || !stdin_can_be_read())
+    dup2(Descriptor(open("/dev/null", O_RDONLY)).get(), STDIN_FILENO);
+  else if (stdin_is_a_file())
+    give_mpirun_its_own_input();
+  std::vector<char*> command;
+  for (std::string& word : words) command.push_back(word.data());
+  command.push_back(nullptr);
+  run(command.data());
+}
+
+/// Watches mpirun and the keeper, and passes on signals, until both have ended.
+class Supervisor {
+ public:
+  Supervisor(pid_t mpirun, ErrorLines& errors, bool open_mpi)
+      : mpirun_(mpirun), errors_(errors), model_gets_stdin_(!open_mpi) {}
+
+  void run(const Descriptor& signals, const Descriptor& listener, const Descriptor& environment,
+           const pstripack::Greeting& greeting) {
+    bool errors_are_open = true;
+    while (!mpirun_.has_ended() || keeper_) {
+      pollfd events[] = {{signals.get(), POLLIN, 0},
+                         {has_begun_ ? -1 : listener.get(), POLLIN, 0},
+                         {keeper_.get(), POLLIN, 0},
+                         {errors_are_open ? errors_.from() : -1, POLLIN, 0}};
+      if (poll(events, 4, mpirun_.tick()) < 0) continue;
+      if (events[1].revents != 0) greet(listener, environment, greeting);
+      if (events[2].revents != 0) note_end_of_model();
+      signalfd_siginfo arrived;
+      if (events[0].revents != 0 && read(signals.get(), &arrived, sizeof arrived) > 0 &&
+          arrived.ssi_signo != SIGCHLD)
+        pass_on(static_cast<int>(arrived.ssi_signo), greeting);
+      if (events[3].revents != 0) errors_are_open = errors_.pass_on(told_to_end_ == 0);
+      if (errors_.has_named_rank()) mpirun_.end_in(std::chrono::seconds(5));
+    }
+    errors_.finish(told_to_end_ == 0);
+  }
+
+  /// After run(): ends this process as the model ended, or says why the job did.
+  [[noreturn]] void end(int ranks) const {
+    const int status = mpirun_.status();
+    // If mpirun failed without being told to end, a rank was lost, whatever the status of the model is.
+    if (has_ended_ && (status == 0 || told_to_end_ != 0)) end_like(model_.status);
+    if (told_to_end_ != 0) end_like(told_to_end_);
+    if (errors_.has_named_rank()) end_like(status);
+    if (WIFSIGNALED(status))
+      std::fprintf(stderr, "pstripack-run: mpirun was ended by signal %d, and the model with it\n",
+                   WTERMSIG(status));
+    else if (errors_.lack_of_slots())
+      std::fprintf(stderr,
+                   "pstripack-run: more ranks than processors: pstripack-run -n %d --oversubscribe -- "
+                   "COMMAND\n",
+                   ranks);
+    else if (has_begun_)
+      std::fprintf(stderr,
+                   "pstripack-run: mpirun has ended the job with exit code %d: a machine is lost, or a rank, "
+                   "and the model with it\n",
+                   WEXITSTATUS(status));
+    end_like(status);
+  }
+
+ private:
+  /// The keeper has come: it gets what mpirun would not pass on unchanged.
+  void greet(const Descriptor& listener, const Descriptor& environment, const pstripack::Greeting& greeting) {
+    keeper_ = pstripack::accept_from(listener);
+    if (!keeper_) return;
+    const bool gets_stdin = model_gets_stdin_ || stdin_is_a_file() || !stdin_can_be_read();
+    const int descriptors[4] = {gets_stdin ? STDIN_FILENO : -1, STDOUT_FILENO, STDERR_FILENO,
+                                environment.get()};
+    has_begun_ = pstripack::send_packet(keeper_, &greeting, sizeof greeting, descriptors, 4);
+    if (!has_begun_) keeper_.reset();
+  }
+
+  void note_end_of_model() {
+    has_ended_ = pstripack::receive_packet(keeper_, &model_, sizeof model_);
+    keeper_.reset();
+    if (told_to_end_ != 0) mpirun_.end_in(std::chrono::seconds(10));
+  }
+
+  void pass_on(int number, const pstripack::Greeting& greeting) {
+    pstripack::SignalForModel signal{number};
+    const bool tells_to_end = greeting.tells_to_end(number);
+    if (tells_to_end) {
+      const Clock::time_point before_now = std::exchange(told_at_, Clock::now());
+      // timeout(1) sends its signal to this process, and then to its group.
+      if (number == told_to_end_ && told_at_ < before_now + std::chrono::milliseconds(200)) return;
+      told_to_end_ = number;
+      if (number == SIGINT && ++interrupts_ > 1) signal.number = SIGKILL;
+    }
+    if (signal.number == SIGKILL) mpirun_.end_in(std::chrono::seconds(2));
+    if (keeper_)
+      pstripack::send_packet(keeper_, &signal, sizeof signal);
+    else if (tells_to_end)
+      mpirun_.end_in(std::chrono::seconds(0));
+    else if (number == SIGUSR1 || number == SIGUSR2)
+      mpirun_.send(number);
+    if (number == SIGTSTP) raise(SIGSTOP);
+  }
+
+  Mpirun mpirun_;
+  ErrorLines& errors_;
+  const bool model_gets_stdin_;  ///< whatever it is
+  Descriptor keeper_;
+  pstripack::ModelEnd model_;
+  int told_to_end_ = 0;  ///< by which signal
+  int interrupts_ = 0;
+  Clock::time_point told_at_;
+  bool has_begun_ = false, has_ended_ = false;  ///< the model
+};
+
 }  // namespace
 
 int main(int, char** argv) {
@@ -359,11 +500,7 @@ int main(int, char** argv) {
   if (arguments.ranks == 1) run(arguments.program);
 
   occupy_closed_standard_streams();
-  pstripack::Greeting greeting;
-  for (int s = 1; s < NSIG; ++s)
-    if (struct sigaction action; sigaction(s, nullptr, &action) == 0 && action.sa_handler == SIG_IGN)
-      greeting.ignored |= std::uint64_t{1} << (s - 1);
-  greeting.ignored |= std::uint64_t{1} << (SIGTTOU - 1);  // a process in the background may write
+  const pstripack::Greeting greeting = greeting_of_this_process();
   const Descriptor environment = environment_file();
   std::string name;
   const Descriptor listener = pstripack::listen_under_new_name(&name);
@@ -373,16 +510,9 @@ int main(int, char** argv) {
   const bool open_mpi = is_open_mpi(path);
   std::vector<std::string> words = mpirun_command(path, open_mpi, arguments);
 
-  sigset_t signals, before;
-  sigemptyset(&signals);
-  for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGTSTP, SIGCONT, SIGCHLD})
-    sigaddset(&signals, signal);
-  sigprocmask(SIG_BLOCK, &signals, &before);
-  const Descriptor signal_file(signalfd(-1, &signals, SFD_CLOEXEC));
-  signal(SIGTTIN, SIG_IGN);
-  signal(SIGPIPE, SIG_IGN);
+  sigset_t before;
+  const Descriptor signals = signals_as_file(&before);
   put_pipe_before_terminal();
-
   ErrorLines errors;
   if (!errors.open()) fail(std::string("pipe: ") + std::strerror(errno), 1);
   const pid_t me = getpid(), process = fork();
@@ -390,87 +520,10 @@ int main(int, char** argv) {
   if (process == 0) {
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != me) _exit(128 + SIGTERM);
-    // What a terminal or timeout(1) sends to our group is for the model, not for mpirun.
-    setpgid(0, 0);
-    signal(SIGTTIN, SIG_DFL);
-    signal(SIGPIPE, SIG_DFL);
-    signal(SIGTTOU, SIG_IGN);
-    sigprocmask(SIG_SETMASK, &before, nullptr);
-    errors.become_stderr();
-    if (!open_mpi || !stdin_can_be_read())
-      dup2(Descriptor(open("/dev/null", O_RDONLY)).get(), STDIN_FILENO);
-    else if (stdin_is_a_file())
-      give_mpirun_its_own_input();
-    std::vector<char*> command;
-    for (std::string& word : words) command.push_back(word.data());
-    command.push_back(nullptr);
-    run(command.data());
+    become_mpirun(std::move(words), open_mpi, before, errors);
   }
-
   errors.leave_to_mpirun();
-  Mpirun mpirun(process);
-  Descriptor keeper;
-  pstripack::ModelEnd model;
-  int told_to_end = 0, interrupts = 0;  // told_to_end: by which signal
-  Clock::time_point told_at;
-  bool has_begun = false, has_ended = false, errors_are_open = true;
-  while (!mpirun.has_ended() || keeper) {
-    pollfd events[] = {{signal_file.get(), POLLIN, 0},
-                       {has_begun ? -1 : listener.get(), POLLIN, 0},
-                       {keeper.get(), POLLIN, 0},
-                       {errors_are_open ? errors.from() : -1, POLLIN, 0}};
-    if (poll(events, 4, mpirun.tick()) < 0) continue;
-    if (events[1].revents != 0 && (keeper = pstripack::accept_from(listener))) {
-      const int descriptors[4] = {!open_mpi || stdin_is_a_file() || !stdin_can_be_read() ? STDIN_FILENO : -1,
-                                  STDOUT_FILENO, STDERR_FILENO, environment.get()};
-      has_begun = pstripack::send_packet(keeper, &greeting, sizeof greeting, descriptors, 4);
-      if (!has_begun) keeper.reset();
-    }
-    if (events[2].revents != 0) {
-      has_ended = pstripack::receive_packet(keeper, &model, sizeof model);
-      keeper.reset();
-      if (told_to_end != 0) mpirun.end_in(std::chrono::seconds(10));
-    }
-    signalfd_siginfo arrived;
-    if (events[0].revents != 0 && read(signal_file.get(), &arrived, sizeof arrived) > 0 &&
-        arrived.ssi_signo != SIGCHLD) {
-      pstripack::SignalForModel signal{static_cast<std::int32_t>(arrived.ssi_signo)};
-      const bool tells_to_end = greeting.tells_to_end(signal.number);
-      if (tells_to_end) {
-        const Clock::time_point before_now = std::exchange(told_at, Clock::now());
-        // timeout(1) sends its signal to this process, and then to its group.
-        if (signal.number == told_to_end && told_at < before_now + std::chrono::milliseconds(200)) continue;
-        told_to_end = signal.number;
-        if (signal.number == SIGINT && ++interrupts > 1) signal.number = SIGKILL;
-      }
-      if (signal.number == SIGKILL) mpirun.end_in(std::chrono::seconds(2));
-      if (keeper)
-        pstripack::send_packet(keeper, &signal, sizeof signal);
-      else if (tells_to_end)
-        mpirun.end_in(std::chrono::seconds(0));
-      else if (signal.number == SIGUSR1 || signal.number == SIGUSR2)
-        mpirun.send(signal.number);
-      if (signal.number == SIGTSTP) raise(SIGSTOP);
-    }
-    if (events[3].revents != 0) errors_are_open = errors.pass_on(told_to_end == 0);
-    if (errors.has_named_rank()) mpirun.end_in(std::chrono::seconds(5));
-  }
-  errors.finish(told_to_end == 0);
-  // If mpirun failed without being told to end, a rank was lost, whatever the status of the model is.
-  if (has_ended && (mpirun.status() == 0 || told_to_end != 0)) end_like(model.status);
-  if (told_to_end != 0) end_like(told_to_end);
-  if (errors.has_named_rank()) end_like(mpirun.status());
-  if (WIFSIGNALED(mpirun.status()))
-    std::fprintf(stderr, "pstripack-run: mpirun was ended by signal %d, and the model with it\n",
-                 WTERMSIG(mpirun.status()));
-  else if (errors.lack_of_slots())
-    std::fprintf(
-        stderr, "pstripack-run: more ranks than processors: pstripack-run -n %d --oversubscribe -- COMMAND\n",
-        arguments.ranks);
-  else if (has_begun)
-    std::fprintf(stderr,
-                 "pstripack-run: mpirun has ended the job with exit code %d: a machine is lost, or a rank, "
-                 "and the model with it\n",
-                 WEXITSTATUS(mpirun.status()));
-  end_like(mpirun.status());
+  Supervisor supervisor(process, errors, open_mpi);
+  supervisor.run(signals, listener, environment, greeting);
+  supervisor.end(arguments.ranks);
 }

@@ -39,8 +39,8 @@ bool all_share(MpiCommunicator& ranks, const SharedArea& area, const Order& orde
 }
 
 /// Carries out one call, on any rank. `area`: null if this rank has not mapped it.
-TrmeshResult carry_out(MpiCommunicator& ranks, Arrays arrays, const Order& order, void* area,
-                       std::int32_t* lnew = nullptr, GroupCost* cost = nullptr) {
+TrmeshResult carry_out_order(MpiCommunicator& ranks, Arrays arrays, const Order& order, void* area,
+                             std::int32_t* lnew = nullptr, GroupCost* cost = nullptr) {
   TrmeshCall call;
   call.nodes = NodeArrays(static_cast<std::size_t>(order.real_bytes), nullptr, nullptr, nullptr);
   if (area != nullptr) call = AreaLayout(order.n, order.real_bytes).call(area, lnew);
@@ -148,8 +148,8 @@ bool Steward::serve(Client& client, MpiCommunicator& ranks) {
   try {
     const Arrays arrays = all_share(ranks, client.area, order) ? Arrays::shared : Arrays::on_one_rank;
     client.area.close_file();  // every rank that can map it has done so
-    result = carry_out(ranks, arrays, order, client.area.data(), &reply.lnew,
-                       request.wants_cost != 0 ? &reply.cost : nullptr);
+    result = carry_out_order(ranks, arrays, order, client.area.data(), &reply.lnew,
+                             request.wants_cost != 0 ? &reply.cost : nullptr);
   } catch (const AgreedFailure& failure) {
     result = {failure.code};
   }
@@ -181,7 +181,8 @@ void serve_as_worker(MpiCommunicator& ranks) {
     }
     try {
       const bool shared = all_share(ranks, area, order);
-      carry_out(ranks, shared ? Arrays::shared : Arrays::on_one_rank, order, shared ? area.data() : nullptr);
+      carry_out_order(ranks, shared ? Arrays::shared : Arrays::on_one_rank, order,
+                      shared ? area.data() : nullptr);
     } catch (const AgreedFailure&) {
       // Rank 0 tells the model; the next call may succeed.
     }
