@@ -89,7 +89,7 @@ class OneRank {
         tally.flips += moving_->flips();
         tally.rounds = std::max(tally.rounds, moving_->rounds());
         EXPECT_TRUE(right) << "stars of nodes that have none";
-        EXPECT_TRUE(moving_->sample().fits(local.points));
+        EXPECT_TRUE(sample_of(stars_, ranges_, static_cast<RankNumber>(ranks_.rank())).fits(local.points));
         if (right) compare(nodes, *right);
         return;
       }
@@ -111,7 +111,7 @@ class OneRank {
     options.with_neighbours = true;
     stars_ = triangulate<Int>(counted, check, corners, {corner[0], corner[1], corner[2]}, ranks_, options);
     if (!stars_.coincident.empty()) return;
-    fetch_numbers(stars_.outside, local, ranges_, ranks_);
+    fetch_halo(stars_.outside, local, ranges_, ranks_);
     if (check.lengths_are_one.value) moving_ = MovingStars::make(local, ranges_, stars_, ranks_);
     if (right) compare(nodes, *right);
   }
@@ -120,12 +120,10 @@ class OneRank {
   void update(Tally& tally) {
     std::vector<const Int*> before;
     for (std::size_t i = 0; i < mine_.size(); ++i) before.push_back(stars_.of_node[i].begin);
-    stars_.lengths = Lengths::directions;  // as after a call that needed them
     moving_->update(stars_);
-    EXPECT_EQ(stars_.lengths, Lengths::as_given);
     std::size_t written = 0;
     for (std::size_t i = 0; i < mine_.size(); ++i) written += stars_.of_node[i].begin != before[i];
-    if (stars_.more_memory.size() == 1 && written == mine_.size() && !mine_.empty()) {
+    if (stars_.memory.size() == 1 && written == mine_.size() && !mine_.empty()) {
       ++tally.laid_out_anew;
     } else if (moving_->rounds() == 0 && moving_->flips() == 0) {
       EXPECT_EQ(written, 0u);

@@ -15,6 +15,7 @@
 #include <string>
 #include <thread>
 
+#include "base/cached.h"
 #include "base/parallel_for.h"
 #include "base/workspace.h"
 #include "geometry/predicates.h"
@@ -67,7 +68,7 @@ Result call(const Nodes& nodes) {
 }
 
 Result cold_call(const Nodes& nodes) {
-  forget_last_meshes();
+  free_cached_things();
   Result r = call(nodes);
   EXPECT_FALSE(r.is_warm);
   return r;
@@ -82,7 +83,7 @@ struct Tally {
 
 /// Expects the same bytes of warm and of cold calls for these sets, one after another.
 Tally compare(const std::vector<Nodes>& sets) {
-  forget_last_meshes();
+  free_cached_things();
   std::vector<Result> results;
   Tally tally;
   for (const Nodes& nodes : sets) {
@@ -93,7 +94,7 @@ Tally compare(const std::vector<Nodes>& sets) {
   for (std::size_t i = 0; i < sets.size(); ++i)
     EXPECT_TRUE(same(results[i], cold_call(sets[i])))
         << "call " << i + 1 << (results[i].is_warm ? ", warm" : ", cold");
-  forget_last_meshes();
+  free_cached_things();
   return tally;
 }
 
@@ -173,7 +174,7 @@ TEST(WarmStart, IsInvisibleUnderTiesThatAppearAndVanish) {
 
 TEST(WarmStart, FindsNodesThatCoincide) {
   Nodes nodes = nodes_of("random", kN);
-  forget_last_meshes();
+  free_cached_things();
   for (int i = 0; i < 4; ++i) call(nodes);
   nodes[1700] = nodes[40];
   const Result r = call(nodes);
@@ -189,7 +190,7 @@ TEST(WarmStart, ReturnsTheCodesOfColdCalls) {
   const auto after_warm_calls = [&](const Nodes& nodes) {
     std::int32_t ier = 0;
     for (const int calls : {2, 4}) {
-      forget_last_meshes();
+      free_cached_things();
       for (int i = 0; i < calls; ++i) EXPECT_EQ(call(good).is_warm, i >= 2);
       const Result r = call(nodes);
       EXPECT_TRUE(same(r, cold_call(nodes)));
@@ -229,7 +230,7 @@ TEST(WarmStart, ReturnsMinusTwoOfNodesThatHardlyMove) {
   const Point third = point_sets::normalized(cross(normal, p));
   for (Point& r : nodes) r = point_sets::normalized({dot(r, p), dot(r, third), dot(r, normal)});
   nodes[0].z = nodes[1].z = 1e-9;
-  forget_last_meshes();
+  free_cached_things();
   for (int i = 0; i < 4; ++i) EXPECT_EQ(call(nodes).is_warm, i >= 2);
   nodes[0].z = nodes[1].z = nodes[2].z = 0;
   const Result r = call(nodes);
@@ -363,13 +364,13 @@ TEST(WarmStart, IsInvisibleInSinglePrecision) {
   Random random(9);
   const auto sets =
       sets_of(nodes_of("random", kN), 8, [&](Nodes& p, int) { move_all(p, 1e-2 * spacing(kN), random); });
-  forget_last_meshes();
+  free_cached_things();
   std::vector<Result> results;
   int warm = 0;
   for (const Nodes& nodes : sets) results.push_back(call<float>(nodes)), warm += results.back().is_warm;
   EXPECT_EQ(warm, 6);
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    forget_last_meshes();
+    free_cached_things();
     EXPECT_TRUE(same(results[i], call<float>(sets[i]))) << i;
   }
 }
@@ -384,7 +385,7 @@ TEST(WarmStart, IsInvisibleToThreadsThatCallAtOnce) {
       move_all(p, (step % 7 == 6 ? 0.5 : 1e-3) * spacing(kN), random);
     });
   }
-  forget_last_meshes();
+  free_cached_things();
   std::vector<std::thread> threads;
   for (std::size_t t = 0; t < kThreads; ++t)
     threads.emplace_back([&, t] {
@@ -407,7 +408,7 @@ TEST(WarmStart, IsInvisibleInsideAParallelRegion) {
                            [&](Nodes& p, int) { move_all(p, 1e-3 * spacing(kN), random); }));
   }
   std::vector<std::vector<Result>> results(kThreads);
-  forget_last_meshes();
+  free_cached_things();
 #pragma omp parallel for num_threads(kThreads) schedule(static, 1)
   for (int t = 0; t < kThreads; ++t)
     for (const Nodes& nodes : sets[static_cast<std::size_t>(t)])
@@ -420,7 +421,7 @@ TEST(WarmStart, IsInvisibleInsideAParallelRegion) {
 
 TEST(WarmStart, BeginsAnewInAForkedChild) {
   const Nodes nodes = nodes_of("random", kN);
-  forget_last_meshes();
+  free_cached_things();
   Result last;
   for (int i = 0; i < 3; ++i) last = call(nodes);
   EXPECT_TRUE(last.is_warm);
@@ -433,16 +434,16 @@ TEST(WarmStart, BeginsAnewInAForkedChild) {
             }),
             0);
   EXPECT_TRUE(call(nodes).is_warm);
-  forget_last_meshes();
+  free_cached_things();
 }
 
 TEST(WarmStart, GivesItsMemoryUpWhereItIsAskedFor) {
   const Nodes nodes = nodes_of("random", kN);
   for (int i = 0; i < 4; ++i) call(nodes);
   EXPECT_TRUE(free_cached_blocks());
-  EXPECT_FALSE(forget_last_meshes());
+  EXPECT_FALSE(free_cached_things());
   EXPECT_FALSE(call(nodes).is_warm);
-  forget_last_meshes();
+  free_cached_things();
 }
 
 /// A call with nodes that do not fit leaves the mesh to those that do.
@@ -452,7 +453,7 @@ TEST(WarmStart, RecognisesItsNodesAfterOthers) {
     return WarmStart({c.x.data(), c.y.data(), c.z.data()}, nodes.size()).is_prepared();
   };
   const auto is_kept = [](const Nodes& nodes) {
-    forget_last_meshes();
+    free_cached_things();
     for (int i = 0; i < 2; ++i) EXPECT_FALSE(call(nodes).is_warm);
   };
   const Nodes nodes = nodes_of("random", kN);
@@ -483,7 +484,7 @@ TEST(WarmStart, RecognisesItsNodesAfterOthers) {
   }
   EXPECT_FALSE(is_recognised(others));
   EXPECT_TRUE(call(lattice).is_warm);
-  forget_last_meshes();
+  free_cached_things();
 }
 
 /// One node far from the stars that are looked at first: its length decides which predicates are right.
@@ -494,7 +495,7 @@ TEST(WarmStart, IsInvisibleWhereOneLengthIsNotOne) {
       Nodes others = nodes;
       Point& p = others[k];
       p = {p.x * 1.0005, p.y * 1.0005, p.z * 1.0005};
-      forget_last_meshes();
+      free_cached_things();
       for (int i = 0; i < calls; ++i) call(nodes);
       const Result r = call(others);
       EXPECT_FALSE(r.is_warm);
@@ -528,9 +529,9 @@ TEST(WarmStart, TestsAMeshThatIsNew) {
   const Nodes nodes = nodes_of("fibonacci", kN);
   Nodes others = nodes;
   move_all(others, 0.02 * spacing(kN), random);
-  forget_last_meshes();
+  free_cached_things();
   for (int i = 0; i < 3; ++i) call(nodes);
-  forget_last_meshes();
+  free_cached_things();
   for (int i = 0; i < 2; ++i) call(others);
   const Result r = call(nodes);
   EXPECT_TRUE(r.is_warm);
@@ -551,7 +552,7 @@ TEST(WarmStart, GoesOnWithEveryCall) {
 TEST(WarmStart, LooksAtTheLastCallOnly) {
   Nodes nodes = make("fibonacci", kN, 1);
   const Nodes drift = make("random", kN, 2);
-  forget_last_meshes();
+  free_cached_things();
   int i = 0;
   for (; i <= 8; ++i) {  // meshes that do not fit: the next is kept after eight calls
     nodes[0] = {-nodes[0].x, -nodes[0].y, -nodes[0].z};
@@ -565,25 +566,25 @@ TEST(WarmStart, LooksAtTheLastCallOnly) {
     }
     EXPECT_EQ(call(nodes).is_warm, i == 16) << i;
   }
-  forget_last_meshes();
+  free_cached_things();
 }
 
 /// Meshes with a boundary or with few nodes are useless and not kept.
 TEST(WarmStart, KeepsNothingThatNoCallCanBeginWith) {
-  forget_last_meshes();
+  free_cached_things();
   call(make("cap", kN, 1));
-  EXPECT_FALSE(forget_last_meshes());
+  EXPECT_FALSE(free_cached_things());
   call(nodes_of("random", 999));
-  EXPECT_FALSE(forget_last_meshes());
+  EXPECT_FALSE(free_cached_things());
   call(nodes_of("random", 1000));
-  EXPECT_TRUE(forget_last_meshes());
+  EXPECT_TRUE(free_cached_things());
 }
 
 TEST(WarmStart, KeepsNothingWhereItIsOffAndNamesOtherValues) {
   if (std::getenv("IN_CHILD") != nullptr) {
     const bool is_off = std::getenv("PSTRIPACK_WARM_START") == std::string("0");
     for (int i = 0; i < 3; ++i) EXPECT_EQ(call(make("random", kN, 1)).is_warm, i == 2 && !is_off);
-    EXPECT_NE(forget_last_meshes(), is_off);
+    EXPECT_NE(free_cached_things(), is_off);
     return;
   }
   for (const char* const value : {"0", "1", "", "00", "off"}) {
@@ -605,14 +606,14 @@ TEST(WarmStart, KeepsNothingWhereItIsOffAndNamesOtherValues) {
 /// The meshes of four first callers do not prevent those of four others from being kept.
 TEST(WarmStart, ForgetsTheMeshesOfOthersInTurn) {
   const auto set = [](std::uint64_t seed) { return make("random", 1000, seed); };
-  forget_last_meshes();
+  free_cached_things();
   const std::size_t before = room_in_cache();
   for (std::uint64_t seed = 1; seed <= 4; ++seed)
     for (int i = 0; i < 2; ++i) call(set(seed));
   for (int round = 0; round < 3; ++round)
     for (std::uint64_t seed = 5; seed <= 8; ++seed) EXPECT_EQ(call(set(seed)).is_warm, round == 2);
-  EXPECT_TRUE(forget_last_meshes());
-  EXPECT_FALSE(forget_last_meshes());
+  EXPECT_TRUE(free_cached_things());
+  EXPECT_FALSE(free_cached_things());
   EXPECT_EQ(room_in_cache(), before);
 }
 
@@ -621,12 +622,12 @@ TEST(WarmStart, WaitsOneCallMoreAfterAMeshThatDidNotFit) {
   const Nodes here = nodes_of("random", kN);
   Nodes there = here;
   there[0] = {-here[0].x, -here[0].y, -here[0].z};
-  forget_last_meshes();
+  free_cached_things();
   for (int i = 0; i < 3; ++i) EXPECT_EQ(call(here).is_warm, i == 2);
   for (int round = 0; round < 3; ++round)
     for (const Nodes& nodes : {there, here})
       for (int i = 0; i < 3; ++i) EXPECT_EQ(call(nodes).is_warm, i == 2) << round << " " << i;
-  forget_last_meshes();
+  free_cached_things();
 }
 
 /// Lists that the warm start has written are not written again by a cold call.
@@ -650,7 +651,7 @@ TEST(WarmStart, IsTriedAgainAfterAtMost64Calls) {
   Nodes others = nodes;
   others[0] = {2 * nodes[0].x, 2 * nodes[0].y, 2 * nodes[0].z};
   const Columns<> c(others);
-  forget_last_meshes();
+  free_cached_things();
   std::vector<int> tries;
   for (int i = 0, last = 0; i < 300; ++i) {
     Result r = lists;
@@ -661,22 +662,23 @@ TEST(WarmStart, IsTriedAgainAfterAtMost64Calls) {
     start.remember(arrays);
   }
   EXPECT_EQ(tries, (std::vector<int>{2, 2, 4, 8, 16, 32, 64, 64, 64}));
-  forget_last_meshes();
+  free_cached_things();
 }
 
 /// All meshes together have a bound: what is kept counts, and where there is no room nothing is.
 TEST(WarmStart, CountsWhatItKeeps) {
   const Nodes nodes = nodes_of("random", kN);
-  forget_last_meshes();
+  free_cached_things();
   const std::size_t before = room_in_cache();
   for (int i = 0; i < 2; ++i) call(nodes);
   EXPECT_LT(room_in_cache(), before - 50 * kN);
-  forget_last_meshes();
+  free_cached_things();
   EXPECT_EQ(room_in_cache(), before);
-  ASSERT_TRUE(reserve_cache(before));
-  for (int i = 0; i < 4; ++i) EXPECT_FALSE(call(nodes).is_warm);
-  release_cache(before);
-  forget_last_meshes();
+  {
+    const CacheReservation all(before);
+    for (int i = 0; i < 4; ++i) EXPECT_FALSE(call(nodes).is_warm);
+  }
+  free_cached_things();
 }
 
 #ifdef _OPENMP
@@ -689,12 +691,12 @@ TEST(WarmStart, IsInvisibleOnThreads) {
   std::vector<Result> first;
   for (const int threads : {1, 2, 3}) {
     omp_set_num_threads(threads);
-    forget_last_meshes();
+    free_cached_things();
     int warm = 0;
     for (std::size_t i = 0; i < sets.size(); ++i) {
       Result r = call(sets[i]);
       warm += r.is_warm;
-      if (threads == 1) first.push_back(cold_call(sets[i])), forget_last_meshes();
+      if (threads == 1) first.push_back(cold_call(sets[i])), free_cached_things();
       EXPECT_TRUE(same(r, first[i])) << threads << " threads, call " << i + 1;
     }
     EXPECT_EQ(warm, threads == 1 ? 0 : 6);

@@ -293,7 +293,6 @@ TEST_F(EachAllocationOf, TrmeshThatBeginsWithTheLastMesh) {
     const bool for_good = k % 2 != 0;  // then the cold start fails as well
     bool failed = true;
     for (long which = 1; failed; ++which, failures += failed) {
-      pstripack::forget_last_meshes();
       pstripack::free_cached_blocks();
       for (int i = 0; i < kCalls; ++i) {
         Arrays<R8> a = right[static_cast<std::size_t>(i)];

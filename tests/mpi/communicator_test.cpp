@@ -117,8 +117,9 @@ TEST(Communicator, BroadcastsScattersAndGathers) {
       for (int r = 0; r < ranks.size(); ++r) messages.push_back(message(root, r, root));
       const Parcels all = parcels_of(messages);
       const auto& expected = messages[static_cast<std::size_t>(ranks.rank())];
-      std::vector<unsigned char> one(expected.size()), two(expected.size());
       const bool is_root = ranks.rank() == root;
+      std::vector<unsigned char> one(expected.size()), two(expected.size());
+      if (is_root) one = two = expected;
       const auto begin = is_root ? all.begin : std::vector<std::size_t>();
       ranks.start_scatter(is_root ? all.bytes.data() : nullptr, begin, one.data(), one.size(), root);
       ranks.start_scatter(is_root ? all.bytes.data() : nullptr, begin, two.data(), two.size(), root);
@@ -127,6 +128,9 @@ TEST(Communicator, BroadcastsScattersAndGathers) {
       ASSERT_EQ(two, expected);
 
       std::vector<unsigned char> gathered(is_root ? all.begin.back() : 0);
+      if (is_root)
+        std::copy(one.begin(), one.end(),
+                  gathered.begin() + static_cast<long>(begin[static_cast<std::size_t>(root)]));
       ranks.start_gather(one.data(), one.size(), gathered.data(), begin, root);
       ranks.finish();
       if (is_root) {

@@ -369,7 +369,7 @@ TEST(Moving, SurviveMemoryThatRunsOut) {
 /// TRMESH by all ranks, in comm mode. Begins without a mesh.
 class Caller {
  public:
-  Caller() { forget_last_meshes(); }
+  Caller() { free_cached_things(); }
 
   /// Whether the call began with the mesh of the last one.
   bool call(const Nodes& nodes, int ier = 0, long failing = 0, bool for_good = false) {
@@ -439,7 +439,7 @@ TEST(Moving, StarsAreGivenUpWhereMemoryIsOut) {
   const Nodes nodes = point_sets::make("random", kN, 1);
   Caller caller;
   for (int step = 0; step < 4; ++step) EXPECT_EQ(caller.call(nodes), step >= 2);
-  if (rank_of() == size_of() - 1) forget_last_meshes();
+  if (rank_of() == size_of() - 1) free_cached_things();
   for (int step = 0; step < 4; ++step)
     EXPECT_EQ(caller.call(nodes), step >= 2) << "the last rank has given up its mesh";
 

@@ -243,20 +243,13 @@ TEST(Pieces, RingsOfEveryLengthAreCopied) {
   constexpr std::int64_t least = 2, most = 300;
   std::vector<std::int64_t> kept;
   std::vector<std::size_t> begin;
-  std::vector<std::uint8_t> size_class;
-  std::vector<std::uint32_t> position;
   for (std::int64_t count = least; count < most; ++count) {
-    position.push_back(static_cast<std::uint32_t>(begin.size()));
-    size_class.push_back(
-        pstripack::RingTable<std::int64_t>::size_class_of(static_cast<std::uint32_t>(count)));
     begin.push_back(kept.size());
     kept.push_back(count);
     for (std::int64_t i = 0; i < count; ++i) kept.push_back(100 + 1000 * count + i);
   }
-  std::vector<const std::int64_t*> places;
-  for (const std::size_t b : begin) places.push_back(&kept[b]);
-  const pstripack::RingTable<std::int64_t> rings(places.size(), position.data(), places.data(),
-                                                 size_class.data());
+  pstripack::RingTable<std::int64_t> rings(begin.size());
+  for (std::size_t k = 0; k < begin.size(); ++k) rings.entries().set(k, &kept[begin[k]]);
   const std::size_t arcs = rings.arcs();
   std::vector<std::int32_t> list(arcs + 1, untouched), lend(rings.size()), lptr(1000 + arcs + 1, untouched);
   pstripack::write_piece(rings, 1000, list.data(), lend.data(), 1);

@@ -53,7 +53,8 @@ struct Set {
 struct Outcome {
   std::vector<std::vector<std::int64_t>> ring;  // by node
   std::vector<std::int32_t> codes;              // of the ranks
-  std::vector<Stars<std::int32_t>> stars;       // without of_node
+  std::vector<Stars<std::int32_t>> stars;       // coincident and outside alone
+  std::vector<Lengths> lengths;                 // that decided
   std::vector<ParallelCost> cost;
 };
 
@@ -75,7 +76,7 @@ void keep(const Stars<Int>& stars, const LocalNodes& nodes, std::size_t rank, co
     if (kept.back() > 0) std::rotate(kept.begin(), std::min_element(kept.begin(), kept.end()), kept.end());
   }
   for (const auto& [a, b] : stars.coincident) out.stars[rank].coincident.emplace_back(name(a), name(b));
-  out.stars[rank].lengths = stars.lengths;
+  out.lengths[rank] = stars.homes->lengths();
   for (const HaloNode& node : stars.outside)
     out.stars[rank].outside.push_back({node.point, node.counted, name(node.number)});
 }
@@ -110,6 +111,7 @@ Outcome run(const Nodes& nodes, const std::vector<std::size_t>& rank_of_node,
   out.ring.resize(n);
   out.codes.resize(size);
   out.stars.resize(size);
+  out.lengths.resize(size);
   out.cost.resize(size);
   std::mutex mutex;
   ThreadRanks::run(static_cast<int>(size), [&](Communicator& ranks) {
@@ -123,6 +125,7 @@ Outcome run(const Nodes& nodes, const std::vector<std::size_t>& rank_of_node,
       const Point corners[3] = {nodes[0], nodes[1], nodes[2]};
       Stars<Int> stars = triangulate<Int>(local, check_of_all(local, ranks), corners,
                                           {number(1), number(2), number(3)}, ranks, options, &out.cost[r]);
+      if (is_counted) fetch_halo(stars.outside, local, ranges, ranks);
       const std::lock_guard lock(mutex);
       keep(stars, local, r, name, out);
       homes[r] = std::move(stars.homes);
@@ -136,8 +139,8 @@ Outcome run(const Nodes& nodes, const std::vector<std::size_t>& rank_of_node,
 inline ::testing::AssertionResult is_serial(const Set& set, const Outcome& out) {
   for (const std::int32_t code : out.codes)
     if (code != 0) return ::testing::AssertionFailure() << "code " << code;
-  for (const auto& stars : out.stars)
-    if (stars.lengths != set.lengths) return ::testing::AssertionFailure() << "other predicates";
+  for (const Lengths lengths : out.lengths)
+    if (lengths != set.lengths) return ::testing::AssertionFailure() << "other predicates";
   for (std::size_t k = 0; k < set.nodes.size(); ++k) {
     const auto& expected = set.rings.neighbours[k];
     std::vector<std::int64_t> ring;

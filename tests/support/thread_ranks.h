@@ -85,16 +85,6 @@ class ThreadRanks {
       return values_.data();
     }
 
-    void all_gather_in_place(void* all, const std::vector<std::size_t>& begin) override {
-      group_.meet(rank_, all, [&] {
-        for (std::size_t r = 0; r < group_.posted_.size(); ++r) {
-          const auto* const from = static_cast<const unsigned char*>(group_.posted_[r]);
-          if (static_cast<int>(r) != rank_)
-            std::copy(from + begin[r], from + begin[r + 1], static_cast<unsigned char*>(all) + begin[r]);
-        }
-      });
-    }
-
     pstripack::Parcels exchange(const pstripack::Parcels& outgoing, std::int32_t code) override {
       using Post = std::pair<std::int32_t, const pstripack::Parcels*>;
       const Post mine(code, &outgoing);

@@ -1,6 +1,7 @@
 #pragma once
 // A cache from one call to the next. Its contents are destroyed if an allocation fails.
 
+#include <cstddef>
 #include <memory>
 #include <new>
 #include <utility>
@@ -11,14 +12,32 @@ struct CachedThing {
   virtual ~CachedThing() = default;
 };
 
-/// Stores `thing` in one of 32 places of the process and returns the number of the place, which is the
-/// caller's until it calls take_out_of. Destroys `thing` and returns -1 if all places are taken. This
-/// function and the two below may be called from any thread and never wait.
-int put_into_a_place(std::unique_ptr<CachedThing> thing) noexcept;
-/// Frees the place and returns what it held; null if that has been given up.
+/// A process has places for things. Those from 0 to here belong to nobody: any thread may look into them.
+constexpr int kSharedPlaces = 4;
+// These functions may be called from any thread and never wait.
+/// Stores `thing`, if the place is empty. False if it is not.
+bool put_into(int place, std::unique_ptr<CachedThing>& thing) noexcept;
+/// What the place held; null if it was empty, or if that has been given up.
 std::unique_ptr<CachedThing> take_out_of(int place) noexcept;
+/// A place that is the caller's until it is returned; -1 if all are taken.
+int take_place() noexcept;
+void return_place(int place) noexcept;
 /// Destroys what all places hold. False if they were empty.
 bool free_cached_things() noexcept;
+
+/// Bytes that may stay in memory from one call to the next, from construction to destruction. With the blocks
+/// of base/workspace.h, which the system can take back, they have an upper bound.
+class CacheReservation {
+ public:
+  /// Throws std::bad_alloc if they may not stay.
+  explicit CacheReservation(std::size_t bytes);
+  ~CacheReservation();
+  CacheReservation(const CacheReservation&) = delete;
+  CacheReservation& operator=(const CacheReservation&) = delete;
+
+ private:
+  const std::size_t bytes_;
+};
 
 /// Holds a T until free_cached_things() destroys it.
 template <class T>
@@ -36,14 +55,17 @@ class Cached {
   void put(std::unique_ptr<T> value) noexcept {
     take();
     try {
-      place_ = put_into_a_place(std::make_unique<Thing>(std::move(value)));
+      std::unique_ptr<CachedThing> thing = std::make_unique<Thing>(std::move(value));
+      place_ = take_place();
+      if (place_ >= 0) put_into(place_, thing);
     } catch (const std::bad_alloc&) {
     }
   }
   /// The stored value; null if it has been destroyed.
   std::unique_ptr<T> take() noexcept {
     if (place_ < 0) return nullptr;
-    const std::unique_ptr<CachedThing> thing = take_out_of(std::exchange(place_, -1));
+    const std::unique_ptr<CachedThing> thing = take_out_of(place_);
+    return_place(std::exchange(place_, -1));
     return thing == nullptr ? nullptr : std::move(static_cast<Thing&>(*thing).value);
   }
 

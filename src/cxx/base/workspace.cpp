@@ -37,10 +37,9 @@ union NeverDestroyed {
   Buffer<unsigned char> block[kCount];
 } cache;
 Buffer<unsigned char> (&cached)[kCount] = cache.block;
-/// Bytes registered by reserve_cache(). They count towards most_cached. The system cannot take their pages
+/// Bytes of CacheReservations. They count towards most_cached. The system cannot take their pages
 /// back, so at most a quarter of most_cached is allowed.
 std::atomic<std::size_t> reserved{0};
-std::atomic<bool (*)() noexcept> free_more{nullptr};
 std::mutex mutex;  // only try_lock: in a forked child it may stay locked for ever
 
 /// Rounds up by at most a sixteenth, so that calls of similar size share blocks.
@@ -52,15 +51,13 @@ std::size_t rounded_up(std::size_t bytes) {
 
 }  // namespace
 
-bool reserve_cache(std::size_t bytes) noexcept {
-  if (reserved.fetch_add(bytes) + bytes <= most_cached / 4) return true;
+CacheReservation::CacheReservation(std::size_t bytes) : bytes_(bytes) {
+  if (reserved.fetch_add(bytes) + bytes <= most_cached / 4) return;
   reserved -= bytes;
-  return false;
+  throw std::bad_alloc();
 }
 
-void release_cache(std::size_t bytes) noexcept { reserved -= bytes; }
-
-void set_free_more(bool (*them)() noexcept) noexcept { free_more = them; }
+CacheReservation::~CacheReservation() { reserved -= bytes_; }
 
 bool free_idle_blocks() noexcept {
   bool any = false;
@@ -73,9 +70,7 @@ bool free_idle_blocks() noexcept {
 }
 
 bool free_cached_blocks() noexcept {
-  bool (*const them)() noexcept = free_more;
-  bool any = free_cached_things();
-  if (them != nullptr && them()) any = true;
+  const bool any = free_cached_things();
   return free_idle_blocks() || any;
 }
 

@@ -37,33 +37,11 @@ class Block {
   Buffer<unsigned char> memory_;
 };
 
-/// Frees all cached blocks, the things of base/cached.h, and what the function given to set_free_more()
-/// frees. False if nothing was freed.
+/// Frees all cached blocks and the things of base/cached.h. False if nothing was freed.
 bool free_cached_blocks() noexcept;
 
 /// Frees the cached blocks alone: for a caller whose next calls need less. False if there were none.
 bool free_idle_blocks() noexcept;
-
-/// Asks whether another `bytes` of memory, other than blocks, may be cached from one call to the next. If
-/// true, they count towards the bound on cached memory until release_cache(bytes) is called.
-bool reserve_cache(std::size_t bytes) noexcept;
-void release_cache(std::size_t bytes) noexcept;
-/// Bytes that may stay, from construction to destruction.
-class CacheReservation {
- public:
-  /// Throws std::bad_alloc if they may not stay.
-  explicit CacheReservation(std::size_t bytes) : bytes_(bytes) {
-    if (!reserve_cache(bytes)) throw std::bad_alloc();
-  }
-  ~CacheReservation() { release_cache(bytes_); }
-  CacheReservation(const CacheReservation&) = delete;
-  CacheReservation& operator=(const CacheReservation&) = delete;
-
- private:
-  const std::size_t bytes_;
-};
-/// Sets a function that frees such memory when an allocation fails. It returns true if it freed any.
-void set_free_more(bool (*them)() noexcept) noexcept;
 
 /// An uninitialised array in its own block.
 template <class T>

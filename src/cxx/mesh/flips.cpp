@@ -44,7 +44,10 @@ MovingMesh::MovingMesh(const Point* p, std::size_t n, const std::int32_t* list, 
   workspace_.next_phase();
   keep_arrays();
   parallel_pieces(n, threads_for(n), [&](std::size_t first, std::size_t last, int) {
-    for (std::size_t v = first; v < last; ++v) inside_[order_[v]] = static_cast<CurveNode>(v);
+    for (std::size_t v = first; v < last; ++v) {
+      inside_[order_[v]] = static_cast<CurveNode>(v);
+      nodes_[v] = p[order_[v]];
+    }
   });
   std::copy(p + n, p + all_, nodes_ + n);
   const auto slot = [&](std::size_t k) { return static_cast<std::size_t>(k == 0 ? 0 : lend[k - 1]); };
@@ -98,6 +101,26 @@ MovingMesh::MovingMesh(const MovingMesh& last, std::size_t n, std::size_t arcs, 
           std::transform(end - more.count(v - stay), end, ring, [&](MeshNode k) { return inside_[k]; });
         }
       });
+}
+
+MovingMesh::Moved MovingMesh::move(const NodeArrays& nodes, Confirm confirm) {
+  constexpr std::size_t kAhead = 16;
+  std::atomic<bool> all_fit{true}, any_has_moved{false};
+  nodes.visit([&](const auto& position) {
+    parallel_pieces(n_, threads_for(n_), [&](std::size_t first, std::size_t last, int) {
+      bool fit = true, has_moved = false;
+      for (std::size_t k = first; k < last; ++k) {
+        if (k + kAhead < last) __builtin_prefetch(&node(k + kAhead), 1);
+        const Point p = position(k);
+        fit = fit & has_length_for(confirm, p);
+        has_moved = has_moved | (node(k) != p);
+        node(k) = p;
+      }
+      if (!fit) all_fit = false;
+      if (has_moved) any_has_moved = true;
+    });
+  });
+  return {all_fit, any_has_moved};
 }
 
 void MovingMesh::forget_changes() {

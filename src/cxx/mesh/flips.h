@@ -7,9 +7,15 @@
 #include <vector>
 
 #include "base/workspace.h"
+#include "geometry/node_arrays.h"
 #include "geometry/predicates.h"
 
 namespace pstripack {
+
+/// True if nodes of this length can be repaired with `confirm`: see MovingMesh::repair().
+inline bool has_length_for(Confirm confirm, const Point& p) {
+  return confirm == Confirm::directions ? length_is_one_up_to_rounding(p) : length_is_one(p);
+}
 
 /// A node of a MovingMesh, as its caller counts: from 0; nodes outside come last.
 using MeshNode = std::uint32_t;
@@ -54,14 +60,20 @@ class MovingMesh {
   /// Position of node k (the caller's number, from 0), to be set before repair().
   Point& node(std::size_t k) { return nodes_[inside_[k]]; }
   const Point& node(std::size_t k) const { return nodes_[inside_[k]]; }
-  [[gnu::always_inline]] void prefetch(std::size_t k) const { __builtin_prefetch(&nodes_[inside_[k]], 1); }
+
+  /// Sets the positions of the nodes with stars. Parallel.
+  struct Moved {
+    bool fit;  ///< all have_length_for( `confirm` )
+    bool any;  ///< at least one has another position than before
+  };
+  Moved move(const NodeArrays& nodes, Confirm confirm);
 
   /// Turns the mesh into the Delaunay triangulation of its nodes at their positions, by the predicates on
   /// coordinates with their tie rule; flips() is then the number of arcs flipped. Returns false if a
   /// triangle is not counterclockwise, an arc cannot be flipped, or a new triangulation is faster; the mesh
-  /// must then be discarded. All nodes must have length_is_one. Why the tests suffice:
-  /// docs/internals/design.md, "Warm start". Parallel. Throws std::bad_alloc. Confirm::directions: also false
-  /// if the mesh may not be that of the directions; all nodes must then have length_is_one_up_to_rounding.
+  /// must then be discarded. All nodes must have has_length_for(confirm). Why the tests suffice:
+  /// docs/internals/design.md, "Warm start". Parallel. Throws std::bad_alloc. Confirm::directions: also false if the
+  /// mesh may not be that of the directions.
   bool repair(Confirm confirm = Confirm::nothing);
   std::size_t flips() const { return flips_; }
 

@@ -6,7 +6,10 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <numeric>
+#include <utility>
 
+#include "base/workspace.h"
 #include "mesh/delaunay.h"
 
 namespace pstripack {
@@ -101,25 +104,35 @@ Int* copy_ring(const Int* place, Int* to) {
 template <class Int>
 class RingTable {
  public:
+  /// Where a ring is stored; and its size, in one byte, so that arcs() need not read the rings.
+  struct Entries {
+    const Int** place;
+    std::uint8_t* size_class;
+    void set(std::size_t k, const Int* ring) const { set(k, ring, static_cast<std::uint32_t>(*ring)); }
+    void set(std::size_t k, const Int* ring, std::uint32_t count) const {
+      place[k] = ring;
+      size_class[k] = static_cast<std::uint8_t>(std::min<std::uint32_t>(count, kMany));
+    }
+    /// Number of entries of ring k, usually without reading it there.
+    std::size_t count(std::size_t k) const {
+      return size_class[k] < kMany ? size_class[k] : ring_at(place[k]).count;
+    }
+  };
+
   RingTable() = default;
-  /// The ring of node i is stored at place[position[i]]; size_class[position[i]] is its size_class_of(count).
-  RingTable(std::size_t size, const std::uint32_t* position, const Int** place, std::uint8_t* size_class)
-      : size_(size), position_(position), place_(place), size_class_(size_class) {}
-
-  static constexpr std::uint8_t kMany = 255;
-  static std::uint8_t size_class_of(std::uint32_t count) {
-    return static_cast<std::uint8_t>(std::min<std::uint32_t>(count, kMany));
-  }
-  /// Number of entries of the ring at `place`, usually without reading it there.
-  static std::size_t count_of(const Int* place, std::uint8_t size_class) {
-    return size_class < kMany ? size_class : ring_at(place).count;
+  /// The ring of node i is entry position[i] of `rings` ones, which are to be set. Throws std::bad_alloc.
+  RingTable(BlockArray<std::uint32_t> position, std::size_t rings)
+      : position_(std::move(position)), place_(rings), size_class_(rings) {}
+  /// Ring i is that of node i.
+  explicit RingTable(std::size_t size) : RingTable(BlockArray<std::uint32_t>(size), size) {
+    std::iota(position_.begin(), position_.end(), 0);
   }
 
-  std::size_t size() const { return size_; }
+  std::size_t size() const { return position_.size(); }
+  Entries entries() { return {place_.data(), size_class_.data()}; }
   Ring<Int> operator[](std::size_t i) const { return ring_at(place_[position_[i]]); }
-  void replace(std::size_t i, const Int* place) {
-    place_[position_[i]] = place;
-    size_class_[position_[i]] = size_class_of(static_cast<std::uint32_t>(*place));
+  void replace(std::size_t i, const Int* ring, std::uint32_t count) {
+    entries().set(position_[i], ring, count);
   }
   [[gnu::always_inline]] void prefetch(std::size_t i) const {
     const Int* const place = place_[position_[i]];
@@ -127,20 +140,18 @@ class RingTable {
     __builtin_prefetch(place + 6);  // most rings have six entries, which may lie in two lines
   }
   std::size_t arcs(std::size_t first, std::size_t last) const {
+    const Entries all = const_cast<RingTable*>(this)->entries();
     std::size_t sum = 0;
-    for (std::size_t i = first; i < last; ++i) {
-      const std::uint32_t k = position_[i];
-      sum += count_of(place_[k], size_class_[k]);
-    }
+    for (std::size_t i = first; i < last; ++i) sum += all.count(position_[i]);
     return sum;
   }
-  std::size_t arcs() const { return arcs(0, size_); }
+  std::size_t arcs() const { return arcs(0, size()); }
 
  private:
-  std::size_t size_ = 0;
-  const std::uint32_t* position_ = nullptr;
-  const Int** place_ = nullptr;
-  std::uint8_t* size_class_ = nullptr;  ///< one byte a ring, so that arcs() need not read the rings
+  static constexpr std::uint8_t kMany = 255;
+  BlockArray<std::uint32_t> position_;
+  BlockArray<const Int*> place_;
+  BlockArray<std::uint8_t> size_class_;
 };
 
 /// Writes to `out` the stored rings (see Ring) of the hull nodes v in first..last-1 with wanted(v); returns

@@ -59,7 +59,6 @@ struct CallHeader {
   Point corners[3] = {};  ///< nodes 1 to 3
   PartitionKind partition = PartitionKind::bisection;
   bool wants_cost = false;  ///< rank 0 does
-  bool by_direction = false;
 
   std::size_t slice(int rank, const Communicator& ranks) const {
     return slice_begin(static_cast<std::size_t>(n), static_cast<std::size_t>(rank),
@@ -84,7 +83,6 @@ struct Share {
   /// Checks the slice. `bad`: the first node of the call (from 0) that is zero or not finite.
   void check_slice(Smallest& bad) {
     check = check_nodes(nodes, count);
-    check.by_direction.value = header.by_direction;
     if (check.first_bad < count) bad.value = static_cast<std::int64_t>(first + check.first_bad);
   }
 };
@@ -108,7 +106,6 @@ Share take_slice(const TrmeshCall& call, bool wants_cost, MpiCommunicator& ranks
   Share share;
   CallHeader& header = share.header;
   const std::int32_t n = header.n = call.n, count_code = code_of_count(n);
-  header.by_direction = call.by_direction;
   // All ranks pass the same arguments if the smallest hash is the largest.
   Smallest least_n{n}, least_hash{0}, bad;
   Largest most_n{n}, most_hash;
@@ -151,7 +148,6 @@ Share receive_slice(const TrmeshCall& call, Arrays arrays, bool wants_cost, MpiC
     header.n = call.n;
     header.partition = options_from_environment(0).partition;
     header.wants_cost = wants_cost;
-    header.by_direction = call.by_direction;
     if (code_of_count(call.n) == 0) call.nodes.copy(0, 3, header.corners);
   }
   ranks.broadcast(&header, sizeof header, 0);
@@ -168,8 +164,7 @@ Share receive_slice(const TrmeshCall& call, Arrays arrays, bool wants_cost, MpiC
     for (int r = 0; r <= ranks.size(); ++r) bytes.push_back(header.slice(r, ranks) * real);
   });
   for (int axis = 0; axis < 3 && by_message; ++axis)
-    ranks.start_scatter(call.nodes.array(axis), bytes, share.received[axis].data(),
-                        receives ? share.count * real : 0, 0);
+    ranks.start_scatter(call.nodes.array(axis), bytes, share.received[axis].data(), share.count * real, 0);
   if (!is_root) ranks.finish();
   Smallest bad;
   Outcome outcome = Outcome::of([&] {
@@ -204,9 +199,9 @@ class ByRanks {
   ByRanks(MpiCommunicator& ranks, Arrays arrays, const ListArrays& lists, Share& share, ParallelCost& cost)
       : ranks_(ranks), arrays_(arrays), lists_(lists), share_(share), cost_(cost) {}
 
-  /// Collective, as triangulate_and_deliver() asks for.
+  /// Collective, as triangulate_and_write() asks for.
   std::optional<Coincidence> triangulate(std::size_t n);
-  void deliver() {
+  void write() {
     ranks_.set_phase("gather the lists");
     const PhaseTimer timer(&cost_, ParallelCost::gather, &ranks_);
     gather_lists(ranks_, stars_.of_node, begin_, arrays_, 0, lists_);
@@ -254,7 +249,6 @@ std::optional<Coincidence> ByRanks::triangulate(std::size_t n) {
   const std::size_t count = begin_[me + 1] - begin_[me];
   if (n < this->n()) {  // the second try, without nodes that coincide
     share_.check = check_nodes(share_.nodes, count);
-    share_.check.by_direction.value = share_.header.by_direction;
     agree_on(share_.check, ranks_);
     stars_ = {};
   }
@@ -290,11 +284,10 @@ TrmeshResult collective_trmesh(MpiCommunicator& ranks, Arrays arrays, const Trme
   if (result.ier == 0) {
     std::optional<WarmStart> warm_start;
     if (arrays == Arrays::on_every_rank && ranks.size() <= kMostRanksForWarmStart)
-      warm_start.emplace(call.nodes, static_cast<std::size_t>(call.n),
-                         call.by_direction ? Confirm::directions : Confirm::nothing);
+      warm_start.emplace(call.nodes, static_cast<std::size_t>(call.n));
     if (!warm_start || !begin_with(*warm_start, call.lists, ranks, mine)) {
       ByRanks way(ranks, arrays, call.lists, share, mine);
-      result = triangulate_and_deliver(share.header.n, way);
+      result = triangulate_and_write(share.header.n, way);
       if (warm_start && result.ier == 0) warm_start->remember(call.lists);
     }
   }

@@ -11,6 +11,7 @@
 #include "parallel/agreement.h"
 #include "parallel/coincidence.h"
 #include "parallel/environment_options.h"
+#include "parallel/ring_parcels.h"
 
 namespace pstripack {
 
@@ -83,16 +84,14 @@ std::int32_t DistributedMesh::triangulate_into(const LocalNodes& points, const N
   const LocalNodes counted{points.points, points.count, nullptr, ranges.first(me)};
   ParallelOptions options;
   BlockArray<std::int64_t> numbers;
-  std::optional<std::array<Record, 3>> corners;
+  std::optional<Corners> corners;
   {
     const PhaseTimer timer(&cost, ParallelCost::divide, &ranks_);
-    std::optional<CornerSearch> search;
     in_agreement(ranks_, [&] {
-      search.emplace(ranks_.size());
       options = options_from_environment(points.count);
       numbers = BlockArray<std::int64_t>(points.count);
     });
-    corners = search->run(counted, ranks_);
+    corners = find_corners(counted, ranks_);
     if (!corners) return kCollinear;
   }
   const auto& [a, b, c] = *corners;
@@ -121,7 +120,7 @@ std::int32_t DistributedMesh::triangulate_into(const LocalNodes& points, const N
       // No memory: the next call is cold, too.
     }
   }
-  fetch_numbers(stars.outside, points, ranges, ranks_);
+  fetch_halo(stars.outside, points, ranges, ranks_);
   in_agreement(ranks_, [&] { own_ = OwnStars(std::move(numbers), ranges, me, std::move(stars)); });
   return 0;
 }
@@ -235,8 +234,8 @@ bool DistributedMesh::move_stars(std::unique_ptr<MovingStars> moving, std::optio
     if (relocation) relocate(*relocation, points);
     if (relocation || moving == nullptr)
       moving = own_.visit([&](const auto& stars) {
-        return relocation ? MovingStars::make(points, stars, ranks_, std::move(moving), *relocation)
-                          : MovingStars::make(points, own_.ranges(), stars, ranks_);
+        return MovingStars::make(points, own_.ranges(), stars, ranks_, std::move(moving),
+                                 relocation ? &*relocation : nullptr);
       });
     relocation.reset();
     if (moving == nullptr) return false;
@@ -247,8 +246,10 @@ bool DistributedMesh::move_stars(std::unique_ptr<MovingStars> moving, std::optio
   }
   const PhaseTimer timer(&cost, ParallelCost::lists, &ranks_);
   in_agreement(ranks_, [&] {
-    own_.change([&](auto& stars) { moving->update(stars); });
-    next_.sample = moving->sample();
+    own_.change([&](auto& stars) {
+      moving->update(stars);
+      next_.sample = sample_of(stars, own_.ranges(), static_cast<RankNumber>(ranks_.rank()));
+    });
   });
   cost.set_threads(thread_count(points.count));
   cost.halo = static_cast<std::int64_t>(own_.outside().size());
@@ -305,50 +306,32 @@ std::int32_t DistributedMesh::gather_stars(std::int32_t root, const ListArrays& 
   const auto n = static_cast<std::size_t>(total_), size = static_cast<std::size_t>(ranks_.size()),
              me = static_cast<std::size_t>(ranks_.rank());
 
-  // Each star goes to the rank whose slice contains its number, as: number, count, neighbours.
+  // Each star goes to the rank whose slice contains its number.
   const auto rank_of = [&](std::int64_t number) {  // the r with slice_begin(r) < number <= slice_begin(r+1)
     auto r = static_cast<std::size_t>((number - 1) * static_cast<std::int64_t>(size) / total_);
     while (slice_begin(n, r + 1, size) < static_cast<std::size_t>(number)) ++r;
     while (slice_begin(n, r, size) >= static_cast<std::size_t>(number)) --r;
-    return r;
+    return static_cast<std::uint32_t>(r);
   };
   std::vector<std::size_t> begin;
   const Parcels here = exchange_in_agreement(ranks_, [&] {
     for (std::size_t r = 0; r <= size; ++r) begin.push_back(slice_begin(n, r, size));
     BlockArray<std::uint32_t> rank(own_.count());
-    ParcelWriter writer(size);
-    own_.for_each([&](std::size_t i, std::size_t count, const auto&) {
-      rank[i] = static_cast<std::uint32_t>(rank_of(own_.numbers()[i]));
-      writer.expect<std::int32_t>(rank[i], 2 + count);
+    std::transform(own_.numbers(), own_.numbers() + own_.count(), rank.begin(), rank_of);
+    // Numbers up to the total fit 32 bits.
+    return packed_rings<std::int32_t>(size, [&](const auto& visit) {
+      own_.for_each([&](std::size_t i, std::size_t count, const auto& write) {
+        visit(rank[i], own_.numbers()[i], count, write);
+      });
     });
-    writer.make_room();
-    own_.for_each([&](std::size_t i, std::size_t count, const auto& write) {
-      auto* to = writer.room<std::int32_t>(rank[i], 2 + count);  // numbers up to the total fit 32 bits
-      *to++ = static_cast<std::int32_t>(own_.numbers()[i]);
-      *to++ = static_cast<std::int32_t>(count);
-      write(to);
-    });
-    return writer.finish();
   });
-  const std::size_t slice = begin[me + 1] - begin[me];
-  BlockArray<const std::int32_t*> place;
-  BlockArray<std::uint32_t> position;
-  BlockArray<std::uint8_t> size_class;
-  in_agreement(ranks_, [&] {
-    place = BlockArray<const std::int32_t*>(slice);
-    position = BlockArray<std::uint32_t>(slice);
-    size_class = BlockArray<std::uint8_t>(slice);
+  RingTable<std::int32_t> rings;
+  in_agreement(ranks_, [&] { rings = RingTable<std::int32_t>(begin[me + 1] - begin[me]); });
+  for_each_ring<std::int32_t>(here, [&](std::int32_t number, const Ring<std::int32_t>& ring) {
+    rings.entries().set(static_cast<std::size_t>(number) - 1 - begin[me], ring.begin - 1, ring.count);
   });
-  using Rings = RingTable<std::int32_t>;
-  const Items<std::int32_t> words(here);
-  std::uint32_t k = 0;
-  for (const std::int32_t* at = words.begin(); at < words.end(); at += 2 + at[1], ++k) {
-    place[k] = at + 1;
-    size_class[k] = Rings::size_class_of(static_cast<std::uint32_t>(at[1]));
-    position[static_cast<std::size_t>(*at) - 1 - begin[me]] = k;
-  }
-  gather_lists(ranks_, Rings(slice, position.data(), place.data(), size_class.data()), begin,
-               root == kEveryRank ? Arrays::on_every_rank : Arrays::on_one_rank, root, lists);
+  gather_lists(ranks_, rings, begin, root == kEveryRank ? Arrays::on_every_rank : Arrays::on_one_rank, root,
+               lists);
   return 0;
 }
 

@@ -1,13 +1,13 @@
 #pragma once
 // LIST, LPTR and LEND from stars that are spread over ranks; each rank has those of consecutive nodes.
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "lists/list_pieces.h"
 #include "mpi/mpi_communicator.h"
+#include "parallel/agreement.h"
 #include "parallel/local_nodes.h"
 #include "trmesh/call.h"
 
@@ -36,7 +36,7 @@ void gather_lists(MpiCommunicator& ranks, const RingTable<Int>& rings, const std
   std::vector<std::size_t> slot_bytes, node_bytes;
   auto arcs = static_cast<std::int64_t>(rings.arcs());
   int piece_threads = 1, lptr_threads = 1;
-  try {
+  in_agreement(ranks, [&] {
     piece_threads = threads_for(count);
     if (has_arrays) lptr_threads = threads_for(n);
     slot_bytes.resize(size + 1);
@@ -45,13 +45,8 @@ void gather_lists(MpiCommunicator& ranks, const RingTable<Int>& rings, const std
       list_piece = BlockArray<std::int32_t>(static_cast<std::size_t>(arcs));
       lend_piece = BlockArray<std::int32_t>(count);
     }
-  } catch (...) {
-    arcs = -1;
-  }
+  });
   const std::int64_t* const arcs_of_rank = ranks.all_gather_one(arcs);
-  constexpr std::int32_t out_of_memory = -6;
-  if (*std::min_element(arcs_of_rank, arcs_of_rank + size) < 0) throw AgreedFailure(out_of_memory);
-
   for (std::size_t r = 0; r < size; ++r) {
     slot_bytes[r + 1] = slot_bytes[r] + static_cast<std::size_t>(arcs_of_rank[r]) * sizeof *list;
     node_bytes[r + 1] = begin[r + 1] * sizeof *lend;

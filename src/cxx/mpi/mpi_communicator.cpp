@@ -337,12 +337,13 @@ Parcels MpiCommunicator::exchange(const Parcels& outgoing, std::int32_t code) {
   const auto part = [&](std::size_t r) { return static_cast<std::size_t>(other_sizes_[r]); };
   for (std::size_t step = 1; step < ranks; ++step) {
     const std::size_t from = (me + ranks - step) % ranks;
-    post_receive(incoming.bytes.data() + incoming.begin[from],
-                 incoming.begin[from + 1] - incoming.begin[from], static_cast<int>(from));
+    post(Way::in, incoming.bytes.data() + incoming.begin[from],
+         incoming.begin[from + 1] - incoming.begin[from], static_cast<int>(from));
   }
   for (std::size_t step = 1; step < ranks; ++step) {  // each rank begins with another one, to spread the load
     const std::size_t to = (me + step) % ranks;
-    post_send(outgoing.bytes.data() + outgoing.begin[to], part(to), static_cast<int>(to));
+    post(Way::out, const_cast<unsigned char*>(outgoing.bytes.data()) + outgoing.begin[to], part(to),
+         static_cast<int>(to));
   }
   if (part(me) > 0)
     std::memcpy(incoming.bytes.data() + incoming.begin[me], outgoing.bytes.data() + outgoing.begin[me],
@@ -362,28 +363,19 @@ void MpiCommunicator::broadcast(void* bytes, std::size_t size, int root) {
   if (rank_ == root) bytes_sent += static_cast<std::int64_t>(size) * (size_ - 1);
 }
 
-/// If the capacity of under_way_ is used up, waits for the messages under way first. That happens in scatter
-/// and gather only, where both sides have the same order of messages: no deadlock.
-void MpiCommunicator::post_send(const void* bytes, std::size_t size, int to) {
-  const auto* const begin = static_cast<const unsigned char*>(bytes);
-  bytes_sent += static_cast<std::int64_t>(size);
+/// Posts messages to or from another rank. If the capacity of under_way_ is used up, waits for the messages
+/// under way first. That happens in scatter and gather only, where both sides have the same order of
+/// messages: no deadlock.
+void MpiCommunicator::post(Way way, void* bytes, std::size_t size, int other) {
+  if (way == Way::out) bytes_sent += static_cast<std::int64_t>(size);
   bytes_under_way_ += size;
   for (std::size_t at = 0; at < size; at += longest_message_) {
     if (under_way_.size() == under_way_.capacity()) finish();
-    under_way_.emplace_back();
-    check(MPI_Isend(begin + at, static_cast<int>(std::min(longest_message_, size - at)), MPI_BYTE, to, kTag,
-                    comm_, &under_way_.back()));
-  }
-}
-
-void MpiCommunicator::post_receive(void* bytes, std::size_t size, int from) {
-  auto* const begin = static_cast<unsigned char*>(bytes);
-  bytes_under_way_ += size;
-  for (std::size_t at = 0; at < size; at += longest_message_) {
-    if (under_way_.size() == under_way_.capacity()) finish();
-    under_way_.emplace_back();
-    check(MPI_Irecv(begin + at, static_cast<int>(std::min(longest_message_, size - at)), MPI_BYTE, from, kTag,
-                    comm_, &under_way_.back()));
+    auto* const begin = static_cast<unsigned char*>(bytes) + at;
+    const auto length = static_cast<int>(std::min(longest_message_, size - at));
+    MPI_Request* const request = &under_way_.emplace_back();
+    check(way == Way::out ? MPI_Isend(begin, length, MPI_BYTE, other, kTag, comm_, request)
+                          : MPI_Irecv(begin, length, MPI_BYTE, other, kTag, comm_, request));
   }
 }
 
@@ -393,35 +385,12 @@ void MpiCommunicator::finish() {
   bytes_under_way_ = 0;
 }
 
-void MpiCommunicator::start_scatter(const void* all, const std::vector<std::size_t>& begin, void* mine,
-                                    std::size_t size, int root) {
-  if (rank_ != root) {
-    post_receive(mine, size, root);
-    return;
-  }
-  const auto* const bytes = static_cast<const unsigned char*>(all);
+void MpiCommunicator::start(Way way_of_root, void* all, const std::vector<std::size_t>& begin, void* mine,
+                            std::size_t size, int root) {
+  if (rank_ != root) return post(way_of_root == Way::out ? Way::in : Way::out, mine, size, root);
   for (int r = 0; r < size_; ++r) {
     const std::size_t from = begin[static_cast<std::size_t>(r)], to = begin[static_cast<std::size_t>(r) + 1];
-    if (r != root)
-      post_send(bytes + from, to - from, r);
-    else if (mine != nullptr && to > from)
-      std::memcpy(mine, bytes + from, to - from);
-  }
-}
-
-void MpiCommunicator::start_gather(const void* mine, std::size_t size, void* all,
-                                   const std::vector<std::size_t>& begin, int root) {
-  if (rank_ != root) {
-    post_send(mine, size, root);
-    return;
-  }
-  auto* const bytes = static_cast<unsigned char*>(all);
-  for (int r = 0; r < size_; ++r) {
-    const std::size_t from = begin[static_cast<std::size_t>(r)], to = begin[static_cast<std::size_t>(r) + 1];
-    if (r != root)
-      post_receive(bytes + from, to - from, r);
-    else if (mine != nullptr && size > 0)
-      std::memcpy(bytes + from, mine, size);
+    if (r != root) post(way_of_root, static_cast<unsigned char*>(all) + from, to - from, r);
   }
 }
 

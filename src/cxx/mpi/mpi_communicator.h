@@ -37,21 +37,28 @@ class MpiCommunicator : public Communicator {
   void all_sum(std::int64_t* values, std::size_t count) override;
   Parcels all_gather(const void* bytes, std::size_t size) override;
   const std::int64_t* all_gather_one(std::int64_t value) override;
-  void all_gather_in_place(void* all, const std::vector<std::size_t>& begin) override;
   Parcels exchange(const Parcels& outgoing, std::int32_t code = 0) override;
+
+  /// Every rank gets all of `all`, of which rank r brings the bytes [begin[r], begin[r+1]) in place.
+  /// Collective. Allocates nothing.
+  void all_gather_in_place(void* all, const std::vector<std::size_t>& begin);
 
   /// Copies `bytes` of rank `root` to every rank. Collective. Allocates nothing.
   void broadcast(void* bytes, std::size_t size, int root);
 
-  /// Starts to send each rank r the bytes [begin[r], begin[r+1]) of `all` on `root`. `all` and `begin` are
-  /// used on `root` only. mine: where this rank's `size` bytes go; null on `root` if it does not want them.
-  /// The arrays must stay valid and unchanged until finish(). Collective. Allocates nothing.
+  /// Starts to send each other rank r the bytes [begin[r], begin[r+1]) of `all` on `root`. `all` and `begin`
+  /// are used on `root` only; mine: where this rank's `size` bytes go if it is another one. The arrays must
+  /// stay valid and unchanged until finish(). Collective. Allocates nothing.
   void start_scatter(const void* all, const std::vector<std::size_t>& begin, void* mine, std::size_t size,
-                     int root);
-  /// The reverse: starts to collect `mine` of each rank r in the bytes [begin[r], begin[r+1]) of `all` on
-  /// `root`. mine: null on `root` if its bytes are in place already.
+                     int root) {
+    start(Way::out, const_cast<void*>(all), begin, mine, size, root);
+  }
+  /// The reverse: starts to collect `mine` of each other rank r in the bytes [begin[r], begin[r+1]) of `all`
+  /// on `root`.
   void start_gather(const void* mine, std::size_t size, void* all, const std::vector<std::size_t>& begin,
-                    int root);
+                    int root) {
+    start(Way::in, all, begin, const_cast<void*>(mine), size, root);
+  }
   /// Waits until all that this rank has started is done. Between the first start and finish() no other
   /// member may be called.
   void finish();
@@ -71,8 +78,10 @@ class MpiCommunicator : public Communicator {
   void check(int code) const;
   void wait(MPI_Request* requests, int count, std::size_t bytes = 0);
   void wait(MPI_Request request) { wait(&request, 1); }
-  void post_send(const void* bytes, std::size_t size, int to);
-  void post_receive(void* bytes, std::size_t size, int from);
+  enum class Way { out, in };
+  void post(Way way, void* bytes, std::size_t size, int other);
+  void start(Way way_of_root, void* all, const std::vector<std::size_t>& begin, void* mine, std::size_t size,
+             int root);
   std::size_t messages_for(std::size_t size) const {
     return (size + longest_message_ - 1) / longest_message_;
   }

@@ -115,46 +115,23 @@ Numbering check_all(const LocalNodes& points, bool wants_report, bool numbers_ar
   return numbering;
 }
 
-CornerSearch::CornerSearch(int ranks) {
-  constexpr std::size_t kRanks = 64;
-  const auto size = static_cast<std::size_t>(ranks), step = (size + kRanks - 1) / kRanks;
-  for (std::size_t r = 0; r <= size; ++r) begin_.push_back(3 * ((r + step - 1) / step) * sizeof(Record));
-  sample_.assign(begin_.back() / sizeof(Record), Record{{}, kNoNumber});
-}
-
-/// Tries three points of some ranks first, and all points only if all of those lie on one great circle.
-std::optional<std::array<Record, 3>> CornerSearch::run(const LocalNodes& points, MpiCommunicator& ranks) {
-  std::array<Record, 3> corners{};
-  std::size_t found = 0;
-  const auto fits = [&](const Point& p) {
-    if (found == 1) return !on_one_line(corners[0].point, p);
-    return found == 0 || left(corners[0].point, corners[1].point, p) != 0;
-  };
-
-  const auto me = static_cast<std::size_t>(ranks.rank());
-  const std::size_t n = points.count,
-                    sampled = std::min<std::size_t>(n, (begin_[me + 1] - begin_[me]) / sizeof(Record));
-  Record* const share = sample_.data() + begin_[me] / sizeof(Record);
-  for (std::size_t i = 0; i < sampled; ++i) {
-    const std::size_t at = sampled > 1 ? (n - 1) * i / (sampled - 1) : 0;
-    share[i] = {points.points[at], points.number(at)};
-  }
-  ranks.all_gather_in_place(sample_.data(), begin_);
-  for (const Record& r : sample_)
-    if (r.number != kNoNumber && found < 3 && fits(r.point)) corners[found++] = r;
-
-  for (; found < 3; ++found) {
-    Record mine{{}, GlobalNumber{kNone}};
-    for (std::size_t i = 0; i < n; ++i)
-      if (points.number(i) < mine.number && fits(points.points[i]))
-        mine = {points.points[i], points.number(i)};
-    Smallest first{value_of(mine.number)};
-    agree(ranks, first);
-    if (!first.exists()) return std::nullopt;
-    const Parcels owner = ranks.all_gather(&mine, value_of(mine.number) == first.value ? sizeof mine : 0);
-    corners[found] = *Items<Record>(owner).begin();
-  }
-  return corners;
+std::optional<Corners> find_corners(const LocalNodes& points, Communicator& ranks) {
+  // The first points that span the line, plane or space that all span; of a rank, then of all ranks.
+  struct {
+    Corners found;
+    std::size_t count = 0;
+    void add(const SentNode& r) {
+      if (count == 0 || (count == 1 && !on_one_line(found[0].point, r.point)) ||
+          (count == 2 && left(found[0].point, found[1].point, r.point) != 0))
+        found[count++] = r;
+    }
+  } mine, all;
+  for (std::size_t i = 0; i < points.count && mine.count < 3; ++i)
+    mine.add({points.points[i], points.number(i)});
+  const Parcels of_ranks = ranks.all_gather(mine.found.data(), mine.count * sizeof(SentNode));
+  for (const SentNode& r : Items<SentNode>(of_ranks)) all.add(r);
+  if (all.count < 3) return std::nullopt;
+  return all.found;
 }
 
 }  // namespace pstripack

@@ -1,17 +1,15 @@
 #pragma once
 // Checks of the points that each rank brings to a distributed mesh, and of their global numbers.
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "mpi/mpi_communicator.h"
+#include "parallel/divide.h"
 #include "parallel/local_nodes.h"
 #include "parallel/node_ranges.h"
 #include "parallel/partition.h"
-#include "parallel/record.h"
 
 namespace pstripack {
 
@@ -55,19 +53,8 @@ struct Numbering {
 Numbering check_all(const LocalNodes& points, bool wants_report, bool numbers_are_known,
                     MpiCommunicator& ranks);
 
-class CornerSearch {
- public:
-  /// Not collective. Throws std::bad_alloc.
-  explicit CornerSearch(int ranks);
-
-  /// The three points, the same on every rank; none if all points lie on one great circle. Collective. Throws
-  /// AgreedFailure.
-  std::optional<std::array<Record, 3>> run(const LocalNodes& points, MpiCommunicator& ranks);
-
- private:
-  /// Three points of each of at most 64 ranks, in their order; kNoNumber if a rank has fewer.
-  std::vector<Record> sample_;
-  std::vector<std::size_t> begin_;  ///< by rank: the begin of its points, in bytes
-};
+/// Three points that are not on one great circle, the same on every rank; none if all are. Collective.
+/// Throws AgreedFailure.
+std::optional<Corners> find_corners(const LocalNodes& points, Communicator& ranks);
 
 }  // namespace pstripack

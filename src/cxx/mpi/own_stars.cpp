@@ -4,16 +4,10 @@
 
 namespace pstripack {
 
-void OwnStars::sort_outside() {
+void OwnStars::find_outside() {
   const std::vector<HaloNode>& nodes = outside();
-  const auto is_in_place = [&](const Place& p) {
-    return p.place < nodes.size() && value_of(nodes[p.place].counted) == p.counted;
-  };
-  if (place_.size() == nodes.size() && std::all_of(place_.begin(), place_.end(), is_in_place)) return;
-  place_.clear();
-  for (std::size_t j = 0; j < nodes.size(); ++j) place_.push_back({value_of(nodes[j].counted), j});
-  std::sort(place_.begin(), place_.end(),
-            [](const Place& a, const Place& b) { return a.counted < b.counted; });
+  place_ = NumberTable<std::size_t>(nodes.size());
+  for (std::size_t j = 0; j < nodes.size(); ++j) place_.insert(nodes[j].counted, j);
 }
 
 /// Calls visit(a, b, c) for each triangle, counterclockwise, whose smallest corner a is a point here.

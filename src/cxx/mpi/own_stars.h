@@ -10,6 +10,7 @@
 
 #include "base/workspace.h"
 #include "parallel/node_ranges.h"
+#include "parallel/number_table.h"
 #include "parallel/return_rings.h"
 
 namespace pstripack {
@@ -24,7 +25,7 @@ class OwnStars {
   OwnStars(BlockArray<std::int64_t> numbers, NodeRanges ranges, RankNumber me, Stars<Int> stars)
       : numbers_(std::move(numbers)), ranges_(std::move(ranges)), first_(ranges_.first(me)) {
     stars_ = std::move(stars);
-    sort_outside();
+    find_outside();
   }
 
   template <class Body>
@@ -35,7 +36,7 @@ class OwnStars {
   template <class Body>
   void change(const Body& body) {
     std::visit(body, stars_);
-    sort_outside();
+    find_outside();
   }
 
   std::size_t count() const { return numbers_.size(); }
@@ -67,11 +68,6 @@ class OwnStars {
   void local_stars(std::int64_t* begin, std::int32_t* neighbour) const;
 
  private:
-  struct Place {
-    std::int64_t counted;
-    std::size_t place;  ///< among outside()
-  };
-
   template <class Body>
   void for_each_ring(const Body& body) const {
     visit([&](const auto& stars) {
@@ -84,14 +80,13 @@ class OwnStars {
   }
   template <class Visit>
   void for_each_triangle(const Visit& visit) const;
-  void sort_outside();
+  void find_outside();
 
   /// Which node a counted number is: the points here, then those outside.
   std::size_t index(std::int64_t counted) const {
     const auto here = static_cast<std::size_t>(counted - first_);
     if (here < count()) return here;
-    const auto before = [](const Place& a, std::int64_t b) { return a.counted < b; };
-    return count() + std::lower_bound(place_.begin(), place_.end(), counted, before)->place;
+    return count() + *place_.find(GlobalNumber{counted});
   }
   std::int64_t number(std::size_t index) const {
     return index < count() ? numbers_[index] : value_of(outside()[index - count()].number);
@@ -121,7 +116,7 @@ class OwnStars {
   NodeRanges ranges_;
   std::int64_t first_ = 1;  ///< the counted number of the first point here
   std::variant<Stars<std::int32_t>, Stars<std::int64_t>> stars_;  ///< 64 bits if there are so many points
-  std::vector<Place> place_;                                      ///< of outside(), by counted number
+  NumberTable<std::size_t> place_;                                ///< among outside(), by counted number
 };
 
 }  // namespace pstripack

@@ -1,10 +1,9 @@
 #include "parallel/certify.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 #include <vector>
-
-#include "parallel/questions.h"
 
 namespace pstripack {
 namespace {
@@ -27,34 +26,34 @@ template <class Int>
 std::size_t most_lacking(const Patches<Int>& patches, const ParallelOptions& options, int ranks) {
   constexpr std::size_t kFew = 1000;
   if (ranks == 1) return options.most_questions;  // the caller knows what one hull costs
-  return std::min(options.most_questions, own_nodes(patches) / 4 * 3 + kFew);
+  std::size_t own = 0;
+  for (const Patch<Int>& patch : patches.of_rank) own += patch.own();
+  return std::min(options.most_questions, own / 4 * 3 + kFew);
 }
+
+// ---- lists ------------------------------------------------------------------------------------------
 
 /// The lists of all patches here: for each list a head {from, to, count}, then its triangles.
 template <class Int>
-Parcels packed_lists(const Patches<Int>& patches, const Division& division, std::size_t ranks) {
-  const auto for_each_list = [&](const auto& visit) {
-    for (const Patch<Int>& patch : patches.of_rank) {
-      const std::vector<std::size_t>& counts = patch.lists().counts();
-      for (std::size_t q = 0; q < counts.size(); ++q)
-        if (counts[q] > 0) visit(patch, static_cast<PatchNumber>(q), counts[q]);
-    }
+Parcels packed_lists(const Patches<Int>& patches, const PatchRanges& of_ranks) {
+  ParcelWriter writer(of_ranks.ranks());
+  const auto for_each_list = [&](const Patch<Int>& patch, const auto& visit) {
+    const std::vector<std::size_t>& counts = patch.list_counts();
+    for (std::size_t q = 0; q < counts.size(); ++q)
+      if (counts[q] > 0) visit(q, of_ranks.rank_of(static_cast<PatchNumber>(q)), counts[q]);
   };
-  ParcelWriter writer(ranks);
-  for_each_list([&](const Patch<Int>&, PatchNumber q, std::size_t count) {
-    writer.expect<Listed<Int>>(division.patches.rank_of(q), 1 + count);
-  });
+  for (const Patch<Int>& patch : patches.of_rank)
+    for_each_list(patch, [&](std::size_t, RankNumber r, std::size_t count) {
+      writer.expect<Listed<Int>>(r, 1 + count);
+    });
   writer.make_room();
-  std::vector<Listed<Int>*> next(static_cast<std::size_t>(division.patches.count()));
+  std::vector<Listed<Int>*> next(static_cast<std::size_t>(of_ranks.count()));
   for (const Patch<Int>& patch : patches.of_rank) {
-    const std::vector<std::size_t>& counts = patch.lists().counts();
-    for (std::size_t q = 0; q < counts.size(); ++q) {
-      if (counts[q] == 0) continue;
-      next[q] =
-          writer.room<Listed<Int>>(division.patches.rank_of(static_cast<PatchNumber>(q)), 1 + counts[q]);
-      *next[q]++ = {patch.id(), static_cast<Int>(q), static_cast<Int>(counts[q])};
-    }
-    patch.lists().for_each(
+    for_each_list(patch, [&](std::size_t q, RankNumber r, std::size_t count) {
+      next[q] = writer.room<Listed<Int>>(r, 1 + count);
+      *next[q]++ = {patch.id(), static_cast<Int>(q), static_cast<Int>(count)};
+    });
+    patch.for_each_listed(
         [&](PatchNumber q, const Listed<Int>& triangle) { *next[static_cast<std::size_t>(q)]++ = triangle; });
   }
   return writer.finish();
@@ -74,6 +73,50 @@ std::vector<std::vector<ListOfOther<Int>>> sorted_lists(const Parcels& lists, co
   return of_patch;
 }
 
+// ---- questions and answers --------------------------------------------------------------------------
+
+/// A node of an answer, on its way to the patch that has asked.
+struct Answer {
+  SentNode node;
+  PatchNumber to;
+};
+
+/// The answers to these questions. Patches take in the corners of all questions before they answer any.
+template <class Int>
+Parcels packed_answers(Patches<Int>& patches, const Parcels& asked, const PatchRanges& of_ranks,
+                       int threads) {
+  const Items<Question> questions(asked);
+  std::vector<std::vector<Answer>> of_patch(patches.of_rank.size());
+  patches.for_each(threads, [&](Patch<Int>& patch, PatchHere here) {
+    std::vector<SentNode> corners;
+    for (const Question& question : questions)
+      if (question.to == patch.id()) corners.insert(corners.end(), question.corner, question.corner + 3);
+    [[maybe_unused]] const std::size_t before = patch.known();
+    patch.take_in(std::move(corners));
+    for (const Question& question : questions) {
+      if (question.to != patch.id()) continue;
+      const std::vector<SentNode> nodes = patch.answer(question);
+      // So each round adds nodes to a hull.
+      assert(!nodes.empty() || patch.known() > before || !patch.coincident().empty());
+      for (const SentNode& node : nodes) of_patch[here].push_back({node, question.from});
+    }
+  });
+  std::vector<std::vector<Answer>> to_rank(of_ranks.ranks());
+  for (const std::vector<Answer>& answers : of_patch)
+    for (const Answer& answer : answers) to_rank[of_ranks.rank_of(answer.to)].push_back(answer);
+  return packed(to_rank);
+}
+
+/// The patches here take in the answers.
+template <class Int>
+void learn(Patches<Int>& patches, const Parcels& answers, int threads) {
+  std::vector<std::vector<SentNode>> of_patch(patches.of_rank.size());
+  for (const Answer& answer : Items<Answer>(answers))
+    of_patch[static_cast<PatchHere>(answer.to - patches.of_rank[0].id())].push_back(answer.node);
+  patches.for_each(threads, [&](Patch<Int>& patch, PatchHere k) { patch.take_in(std::move(of_patch[k])); });
+  patches.look_for_coincidence();
+}
+
 }  // namespace
 
 template <class Int>
@@ -84,17 +127,16 @@ Certified<Int> certify(Patches<Int> patches, const Division& division, Communica
   CoincidentPairs coincident = all_coincident(patches, ranks);
   if (!coincident.empty()) return {std::move(patches), std::move(coincident)};
 
-  const auto size = static_cast<std::size_t>(ranks.size());
   const std::size_t most = most_lacking(patches, options, ranks.size());
-  Questions questions;
   Parcels answers;
   for (int round = 0;; ++round, ++rounds) {
     const Parcels lists = exchange_in_agreement(ranks, [&] {
-      if (round > 0) learn(patches, questions, answers, threads);
+      if (round > 0) learn(patches, answers, threads);
       patches.for_each(threads, [](Patch<Int>& patch, PatchHere) { patch.update_lists(); });
-      return packed_lists(patches, division, size);
+      return packed_lists(patches, division.patches);
     });
-    const std::size_t allowed = round < kMostRounds ? most : 0;
+    std::vector<std::vector<Question>> questions(division.patches.ranks());  // to each rank
+    OnAny exist;
     in_agreement(
         ranks,
         [&] {
@@ -102,17 +144,23 @@ Certified<Int> certify(Patches<Int> patches, const Division& division, Communica
           std::vector<std::vector<Question>> of_patch(patches.of_rank.size());
           patches.for_each(
               threads, [&](Patch<Int>& patch, PatchHere k) { of_patch[k] = patch.lacking(of_others[k]); });
-          questions = Questions(of_patch, division.patches);
-          if (questions.count > allowed) throw PatchesDoNotPay{};
+          std::size_t count = 0;
+          for (const std::vector<Question>& some : of_patch) {
+            for (const Question& q : some) questions[division.patches.rank_of(q.to)].push_back(q);
+            count += some.size();
+          }
+          if (count > (round < kMostRounds ? most : 0)) throw PatchesDoNotPay{};
+          exist.value = count > 0;
         },
-        patches.see_coincidence, questions.exist);
+        patches.see_coincidence, exist);
     // Patches may know different pairs of nodes that coincide; the pair that is reported must not depend on
     // them.
-    // untested: nodes in one direction are in the same halos, so patches see them before the first lists
+    // untested: nodes in one direction are in the same margins, so patches see them before the first lists
     if (patches.see_coincidence.value) throw PatchesDoNotPay{};
-    if (!questions.exist.value)
-      break;  // every list has matched, and no hull has grown since: the hulls agree
-    answers = answers_to(questions, patches, ranks, threads);
+    if (!exist.value) break;  // every list has matched, and no hull has grown since: the hulls agree
+    const Parcels asked = exchange_in_agreement(ranks, [&] { return packed(questions); });
+    answers = exchange_in_agreement(
+        ranks, [&] { return packed_answers(patches, asked, division.patches, threads); });
   }
   in_agreement(ranks,
                [&] { patches.for_each(threads, [](Patch<Int>& patch, PatchHere) { patch.finish(); }); });

@@ -47,9 +47,6 @@ class Communicator {
   virtual Parcels all_gather(const void* bytes, std::size_t size) = 0;
   /// The values of all ranks, in their order; valid until the next call of any member. Allocates nothing.
   virtual const std::int64_t* all_gather_one(std::int64_t value) = 0;
-  /// Every rank gets all of `all`, of which rank r brings the bytes [begin[r], begin[r+1]) in place.
-  /// Allocates nothing.
-  virtual void all_gather_in_place(void* all, const std::vector<std::size_t>& begin) = 0;
 
   /// Every rank r gets the bytes that each rank meant for r. `outgoing.begin` has size()+1 entries. A rank
   /// that passes the code of a failure (< 0) sends nothing; every rank then throws AgreedFailure with the
@@ -79,7 +76,6 @@ class SingleProcess : public Communicator {
     value_ = value;
     return &value_;
   }
-  void all_gather_in_place(void*, const std::vector<std::size_t>&) override {}
   Parcels exchange(const Parcels& outgoing, std::int32_t code) override;
 
  private:

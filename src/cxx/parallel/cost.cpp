@@ -12,6 +12,8 @@ void combine_into(ParallelCost& to, const ParallelCost& from, const Combine& com
     combine(to.seconds[i], from.seconds[i]);
     combine(to.cpu_seconds[i], from.cpu_seconds[i]);
   }
+  // A new field is to be combined below, too; but for `limit`, which stays.
+  static_assert(sizeof(ParallelCost) == (2 * ParallelCost::phases + 3) * sizeof(double) + 4 * sizeof(int));
   combine(to.threads, from.threads);
   combine(to.rounds, from.rounds);
   combine(to.in_one_patch, from.in_one_patch);

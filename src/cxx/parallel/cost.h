@@ -24,7 +24,7 @@ struct ParallelCost {
   ThreadLimit limit = ThreadLimit::size;  ///< why no more threads
   int rounds = 0;         ///< how often lists of patches did not match; of a warm call, exchanges of flips
   int in_one_patch = 0;   ///< 1: at last one rank had to triangulate all
-  std::int64_t halo = 0;  ///< nodes of other patches that the patches of this rank took in
+  std::int64_t halo = 0;  ///< nodes in the margins of this rank's patches; of a warm call, outside
   std::int64_t bytes_sent = 0;
   std::int64_t flips = -1;  ///< of a call that began with an earlier mesh; -1: it did not
 

@@ -1,6 +1,5 @@
 #include "parallel/cuts.h"
 
-#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -8,11 +7,11 @@ namespace pstripack {
 
 // ---- of a sample ------------------------------------------------------------------------------------
 
-Extent::Extent(const Point* p, std::size_t n) {
-  for (std::size_t i = 0; i < n; ++i)
+Extent::Extent(const Points& p) {
+  for (const Point* at = p.first; at < p.last; ++at)
     for (int axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], component(p[i], axis));
-      high[axis] = std::max(high[axis], component(p[i], axis));
+      low[axis] = std::min(low[axis], component(*at, axis));
+      high[axis] = std::max(high[axis], component(*at, axis));
     }
 }
 
@@ -24,45 +23,17 @@ int Extent::longest() const {
 
 double Extent::diagonal() const { return std::hypot(length(0), length(1), length(2)); }
 
-/// Counts the points in bins, so that only those of a few bins must be sorted: a selection among all points
-/// would mispredict its branches.
-std::vector<double> Halver::heights(const Point* p, std::size_t n, std::size_t first, std::size_t last,
-                                    int axis, const Extent& extent) {
-  constexpr int kBins = 64;
-  constexpr double kTiny = 1e-300;  // has a finite inverse; a shorter extent has one bin
-  const double low = extent.low[axis], length = extent.length(axis);
-  const double scale = length > kTiny ? (kBins - 1) / length : 0;
-  const auto bin_of = [=](double h) { return static_cast<int>((h - low) * scale); };
-  height_.resize(n);
-  std::array<std::size_t, kBins> count{};
-  for (std::size_t i = 0; i < n; ++i) {
-    height_[i] = component(p[i], axis);
-    ++count[bin_of(height_[i])];
-  }
-  std::size_t before = 0;
-  int bin = 0;
-  while (before + count[bin] <= first) before += count[bin++];
-  std::size_t up_to = before;
-  int end = bin;
-  while (up_to < last) up_to += count[end++];
-  std::vector<double> inside(up_to - before + 1);  // the last one is written, but not counted
-  std::size_t found = 0;
-  for (const double h : height_) {
-    inside[found] = h;
-    found += (bin_of(h) >= bin) & (bin_of(h) < end);
-  }
-  std::sort(inside.begin(), inside.end() - 1);
-  const auto begin = inside.begin() + static_cast<std::ptrdiff_t>(first - before);
-  return {begin, begin + static_cast<std::ptrdiff_t>(last - first)};
+std::vector<double> heights(const Points& p, std::size_t first, std::size_t last, int axis) {
+  std::vector<double> all(p.size());
+  std::transform(p.first, p.last, all.begin(), [=](const Point& x) { return component(x, axis); });
+  const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first),
+             end = all.begin() + static_cast<std::ptrdiff_t>(last);
+  std::nth_element(all.begin(), begin, all.end());
+  std::partial_sort(begin, end, all.end());
+  return {begin, end};
 }
 
 // ---- level by level ---------------------------------------------------------------------------------
-
-Cuts::Cuts(int patches, std::vector<Point> sample, BlockArray<Point> counted)
-    : patches_(patches),
-      sample_(std::move(sample)),
-      counted_(std::move(counted)),
-      halves_(std::max(sample_.size(), counted_.size())) {}
 
 Cuts Cuts::of_sample(int patches, std::vector<Point> sample, const std::vector<Point>& counted) {
   BlockArray<Point> block(counted.size());
@@ -91,9 +62,10 @@ void Cuts::cut() {
         {counted_.data(), counted_.data() + counted_.size()}, patches_);
   for (const Box& box : above) {
     const Cut c = cuts_[box.cut];
-    const auto is_beyond = [&](const Point& x) { return component(x, c.axis) >= c.height; };
-    const auto halves = [&](const Points& p) { return halves_.separate(p.first, p.last, is_beyond); };
-    Point *const sample = halves(box.sample), *const counted = halves(box.counted);
+    const auto separate = [&](const Points& p) {
+      return std::partition(p.first, p.last, [&](const Point& x) { return component(x, c.axis) < c.height; });
+    };
+    Point *const sample = separate(box.sample), *const counted = separate(box.counted);
     const auto cut_side = [&](int side, int patches, const Points& of_sample, const Points& of_counted) {
       if (patches == 1) return;
       cuts_[box.cut].child[side] = static_cast<std::int32_t>(cuts_.size());
@@ -106,15 +78,14 @@ void Cuts::cut() {
 
 void Cuts::cut(const Points& sample, const Points& counted, int patches) {
   const std::size_t n = sample.size();
-  const Extent extent(sample.first, n);
-  Cut cut{extent.longest(), 0, {}, patches, patches / 2, {-1, -1}};
+  Cut cut{Extent(sample).longest(), 0, {}, patches, patches / 2, {-1, -1}};
   if (n > 0) {
     // The median of a sample is off by about sqrt(n) / 2 places in the sorted order, and by four times as
     // much once in thousands of cuts.
     const auto reach = static_cast<std::size_t>(2 * std::sqrt(static_cast<double>(n)) + 1);
     const std::size_t middle = n * static_cast<std::size_t>(cut.below) / static_cast<std::size_t>(patches);
     const std::size_t first = std::max(middle, reach) - reach, last = std::min(n, middle + reach);
-    const std::vector<double> height = halves_.heights(sample.first, n, first, last, cut.axis, extent);
+    const std::vector<double> height = heights(sample, first, last, cut.axis);
     for (std::size_t e = 0; e < kEdges; ++e) cut.edge[e] = height[e * (height.size() - 1) / (kEdges - 1)];
     cut.height = 0.5 * (height[std::max(middle, first + 1) - 1 - first] + height[middle - first]);
   }

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "base/workspace.h"
@@ -20,9 +21,15 @@ namespace pstripack {
 
 inline double component(const Point& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 
+/// Points in an array of another's, which is sorted in place.
+struct Points {
+  Point *first, *last;
+  std::size_t size() const { return static_cast<std::size_t>(last - first); }
+};
+
 /// The box around some points.
 struct Extent {
-  Extent(const Point* p, std::size_t n);
+  explicit Extent(const Points& p);
   double low[3] = {4, 4, 4}, high[3] = {-4, -4, -4};
   double length(int axis) const { return high[axis] - low[axis]; }
   /// The axis along which the box is longest. A later axis must be longer by 10 %, so that cuts stay where
@@ -31,36 +38,9 @@ struct Extent {
   double diagonal() const;
 };
 
-/// Cuts points in two, again and again, in place.
-class Halver {
- public:
-  explicit Halver(std::size_t most_points) : others_(most_points) {}
-
-  /// The coordinates along `axis` of the points at places [first, last) of the sorted order, sorted; first <
-  /// last <= n.
-  std::vector<double> heights(const Point* p, std::size_t n, std::size_t first, std::size_t last, int axis,
-                              const Extent& extent);
-
-  /// Moves the points that are not beyond to the front and returns the first of the others; both keep their
-  /// order. Writes each point to both sides and advances on one: no branch.
-  template <class IsBeyond>
-  Point* separate(Point* first, Point* last, const IsBeyond& is_beyond) {
-    Point *below = first, *others = others_.data();
-    for (Point* p = first; p < last; ++p) {
-      const Point q = *p;
-      const bool beyond = is_beyond(q);
-      *below = *others = q;
-      below += !beyond;
-      others += beyond;
-    }
-    std::copy(others_.data(), others, below);
-    return below;
-  }
-
- private:
-  BlockArray<Point> others_;
-  std::vector<double> height_;
-};
+/// The coordinates along `axis` of the points at places [first, last) of the sorted order, sorted; first <
+/// last <= the number of points.
+std::vector<double> heights(const Points& p, std::size_t first, std::size_t last, int axis);
 
 /// The cuts between the patches of a bisection, a binary tree.
 class Cuts {
@@ -76,7 +56,8 @@ class Cuts {
 
   /// No cuts yet. Points have a length of about 1. The sample is the same on every rank; `counted` are nodes
   /// of this rank.
-  Cuts(int patches, std::vector<Point> sample, BlockArray<Point> counted);
+  Cuts(int patches, std::vector<Point> sample, BlockArray<Point> counted)
+      : patches_(patches), sample_(std::move(sample)), counted_(std::move(counted)) {}
   Cuts(Cuts&&) = default;  // boxes point into the arrays
   /// All cuts, at the medians of the sample, moved by the counts of this rank alone.
   static Cuts of_sample(int patches, std::vector<Point> sample, const std::vector<Point>& counted = {});
@@ -98,10 +79,6 @@ class Cuts {
   const std::vector<Cut>& all() const { return cuts_; }
 
  private:
-  struct Points {
-    Point *first, *last;
-    std::size_t size() const { return static_cast<std::size_t>(last - first); }
-  };
   struct Box {
     Points sample, counted;
     std::int32_t cut;
@@ -111,7 +88,6 @@ class Cuts {
   const int patches_;
   std::vector<Point> sample_;
   BlockArray<Point> counted_;
-  Halver halves_;
   std::vector<Cut> cuts_;
   std::vector<Box> boxes_;  ///< of this level
 };

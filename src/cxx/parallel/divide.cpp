@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "geometry/insertion_order.h"
 #include "geometry/predicates.h"
 #include "mesh/delaunay.h"
 #include "parallel/agreement.h"
@@ -20,56 +19,59 @@ namespace {
 // found later costs the time of the patches once more.
 constexpr std::size_t kLookedThrough = 500;
 
-/// What a rank brings; one number tells all ranks.
+/// What a rank brings.
 struct Headcount {
-  std::size_t nodes;  ///< < 2^29
-  int patches;        ///< < 2^30
+  std::size_t nodes;
+  int patches;
   /// The last call's patches are known, and nearly all of its nodes are in those here.
   bool are_at_home;
-
-  std::int64_t encode() const {
-    return static_cast<std::int64_t>(nodes) | std::int64_t{patches} << 32 | std::int64_t{are_at_home} << 62;
-  }
-  static Headcount decode(std::int64_t h) {
-    return {static_cast<std::size_t>(h & 0xffffffff), static_cast<int>(h >> 32 & 0x3fffffff), h >> 62 != 0};
-  }
 };
 
-/// A sample of the nodes of all ranks, to which each rank has written its share.
+/// A sample of the nodes of all ranks, the same on every rank.
 struct GlobalSample {
   bool reuses_patches = false;  ///< of the last call
   bool looks_through = true;    ///< for hidden nodes; not where the last call found none
-  BlockArray<Record> nodes;
-  std::vector<std::size_t> begin;     ///< bytes that the ranks bring
+  std::vector<SentNode> nodes;
   std::vector<std::int64_t> counter;  ///< memory for the counters of cut_anew()
 };
 
-/// Writes this rank's share of a sample.
-GlobalSample begin_sample(const LocalNodes& nodes, const std::vector<Headcount>& heads,
-                          const Division& division, RankNumber me, const ParallelOptions& options,
-                          bool reuses_patches) {
+/// Agrees with all ranks on what there is, and on whether the patches of the last call are used again.
+/// Collective. Throws AgreedFailure.
+GlobalSample sample_of_all(const LocalNodes& nodes, Communicator& ranks, const ParallelOptions& options,
+                           Division& division) {
+  const auto me = static_cast<RankNumber>(ranks.rank());
+  const Homes* const last = options.last;
+  const Headcount here{nodes.count, options.patches,
+                       last != nullptr && last->are_home_to(nodes, ranks.rank())};
+  const Parcels heads = ranks.all_gather(&here, sizeof here);
   GlobalSample sample;
-  sample.reuses_patches = reuses_patches;
-  sample.looks_through = !reuses_patches || options.last->lengths() != division.places.lengths();
-  const std::size_t usual = sample_size(division.nodes, static_cast<std::size_t>(division.patches.count())),
-                    enough = sample.looks_through ? kLookedThrough : options.closing_nodes;
-  const std::size_t wanted = std::min(division.nodes, reuses_patches ? enough : usual);
-  sample.begin.assign(1, 0);
-  std::size_t before = 0, mine = 0;
-  for (RankNumber r = 0; r < heads.size(); ++r) {
-    const std::size_t share = share_of_sample(before, heads[r].nodes, wanted, division.nodes);
-    before += heads[r].nodes;
-    sample.begin.push_back(sample.begin.back() + share * sizeof(Record));
-    if (r == me) mine = share;
-  }
-  sample.nodes = BlockArray<Record>(sample.begin.back() / sizeof(Record));
-  write_share(nodes, mine, sample.nodes.data() + sample.begin[me] / sizeof(Record));
-  if (!reuses_patches)
-    sample.counter.resize(Cuts::counters(std::max(1, Cuts::levels(division.patches.count())) - 1));
+  std::vector<SentNode> mine;
+  in_agreement(ranks, [&] {
+    bool are_at_home = last != nullptr;
+    std::size_t before = 0;  // nodes of the ranks before this one
+    for (const Headcount& head : Items<Headcount>(heads)) {
+      if (division.patches.ranks() == me) before = division.nodes;
+      division.patches.add(head.patches);
+      division.nodes += head.nodes;
+      are_at_home = are_at_home && head.are_at_home;
+    }
+    const auto patches = static_cast<std::size_t>(division.patches.count());
+    sample.reuses_patches =
+        are_at_home && last->are_for(options.partition, division.patches, division.places.lengths());
+    sample.looks_through = !sample.reuses_patches || last->lengths() != division.places.lengths();
+    const std::size_t wanted = !sample.reuses_patches ? sample_size(division.nodes, patches)
+                               : sample.looks_through ? kLookedThrough
+                                                      : options.closing_nodes;
+    mine.resize(share_of_sample(before, nodes.count, std::min(division.nodes, wanted), division.nodes));
+    write_share(nodes, mine.size(), mine.data());
+    if (!sample.reuses_patches)
+      sample.counter.resize(Cuts::counters(std::max(1, Cuts::levels(division.patches.count())) - 1));
+  });
+  sample.nodes = gather_in_agreement(ranks, mine);
   return sample;
 }
 
-std::vector<Point> places_of(const BlockArray<Record>& sample, const Places& places) {
+std::vector<Point> places_of(const std::vector<SentNode>& sample, const Places& places) {
   std::vector<Point> result(sample.size());
   for (std::size_t k = 0; k < sample.size(); ++k) result[k] = places(sample[k].point);
   return result;
@@ -106,38 +108,29 @@ Outcome cut_anew(const LocalNodes& nodes, GlobalSample& sample, PartitionKind ki
 }
 
 /// About `most` nodes of the sample and all of `some`, each once.
-std::vector<Record> some_of(BlockArray<Record>& sample, std::size_t most, std::vector<Record> some = {}) {
+std::vector<SentNode> some_of(const std::vector<SentNode>& sample, std::size_t most,
+                              std::vector<SentNode> some = {}) {
   const std::size_t step = sample.size() / most + 1;
   for (std::size_t k = 0; k < sample.size(); k += step) some.push_back(sample[k]);
   keep_one_of_each(some);
   return some;
 }
 
-/// About `most` of the sample and all of `others`, along a curve.
-std::vector<Record> along_curve(BlockArray<Record>& sample, std::size_t most, std::vector<Record> others) {
-  const std::vector<Record> some = some_of(sample, most, std::move(others));
-  Workspace workspace(16 * some.size());
-  std::vector<std::uint32_t> order(some.size());
-  insertion_order(&some[0].point, some.size(), order.data(), workspace, sizeof(Record));
-  std::vector<Record> ordered;
-  for (const std::uint32_t k : order) ordered.push_back(some[k]);
-  return ordered;
-}
-
 /// Calls visit(hull) for the hull of some nodes, not all on one great circle, which stands for that of all
 /// nodes. Hull::order are their places in `nodes`.
 template <class Visit>
-auto with_hull_of(const std::vector<Record>& nodes, const Visit& visit) {
+auto with_hull_of(const std::vector<SentNode>& nodes, const Visit& visit) {
   std::vector<Point> points;
-  for (const Record& r : nodes) points.push_back(r.point);
+  for (const SentNode& r : nodes) points.push_back(r.point);
   Workspace workspace(workspace_bytes(points.size()));
   return visit(delaunay(points.data(), points.size(), workspace));
 }
 
 /// Throws HiddenNode if the lengths hide one of these nodes: it is hidden in every larger set, too. Builds
-/// the hull only if two successive nodes are close; so the nodes should follow a curve.
-void look_for_hidden_nodes(const std::vector<Record>& nodes, const Places& places) {
+/// the hull only if two nodes that follow each other on a curve are close.
+void look_for_hidden_nodes(std::vector<SentNode> nodes, const Places& places) {
   if (places.lengths() != Lengths::as_given) return;
+  sort_along_curve(nodes);
   // A node of length 1 - d among others of length 1 is hidden if they are no farther off than sqrt(2 d).
   double least = 4;
   for (std::size_t k = 1; k < nodes.size(); ++k) {
@@ -151,11 +144,11 @@ void look_for_hidden_nodes(const std::vector<Record>& nodes, const Places& place
 
 /// True if more than a third of the triangles of these nodes have corners in different patches, or, if these
 /// are more than `parts`, in different parts of so many.
-bool cuts_many_triangles(const Partition& partition, std::size_t parts, const std::vector<Record>& nodes,
+bool cuts_many_triangles(const Partition& partition, std::size_t parts, const std::vector<SentNode>& nodes,
                          const Places& places) {
   const auto patches = static_cast<std::size_t>(partition.patches());
   std::vector<std::size_t> part;
-  for (const Record& r : nodes) {
+  for (const SentNode& r : nodes) {
     const auto owner = static_cast<std::size_t>(partition.owner(places(r.point)));
     part.push_back(patches > parts ? owner * parts / patches : owner);
   }
@@ -172,40 +165,15 @@ bool cuts_many_triangles(const Partition& partition, std::size_t parts, const st
 }
 
 /// True if neighbours in the mesh may be far from each other, as along lines that cross.
-bool cuts_many_triangles(const Division& division, BlockArray<Record>& sample, const Corners& corners) {
+bool cuts_many_triangles(const Division& division, const std::vector<SentNode>& sample,
+                         const Corners& corners) {
   constexpr std::size_t kEnough = 64, kQuarters = 4;
-  const auto cuts_many = [&](std::size_t parts, const std::vector<Record>& nodes) {
+  const auto cuts_many = [&](std::size_t parts, const std::vector<SentNode>& nodes) {
     return cuts_many_triangles(*division.partition, parts, nodes, division.places);
   };
   // A few nodes tell first: this costs next to nothing.
   return division.closing.size() >= kEnough && cuts_many(kQuarters, division.closing) &&
          cuts_many(SIZE_MAX, some_of(sample, sample.size() + 1, {corners.begin(), corners.end()}));
-}
-
-/// Agrees with all ranks on what there is, and on whether the patches of the last call are used again.
-/// Collective. Throws AgreedFailure.
-GlobalSample sample_of_all(const LocalNodes& nodes, Communicator& ranks, const ParallelOptions& options,
-                           Division& division) {
-  const auto me = static_cast<RankNumber>(ranks.rank()), size = static_cast<std::size_t>(ranks.size());
-  const Homes* const last = options.last;
-  const bool at_home = last != nullptr && last->are_home_to(nodes, ranks.rank());
-  const std::int64_t* const encoded =
-      ranks.all_gather_one(Headcount{nodes.count, options.patches, at_home}.encode());
-  GlobalSample sample;
-  std::vector<Headcount> heads;
-  bool reuses_patches = last != nullptr;
-  in_agreement(ranks, [&] {
-    for (RankNumber r = 0; r < size; ++r) {
-      heads.push_back(Headcount::decode(encoded[r]));
-      division.patches.add(heads.back().patches);
-      division.nodes += heads.back().nodes;
-      reuses_patches = reuses_patches && heads.back().are_at_home;
-    }
-    reuses_patches =
-        reuses_patches && last->are_for(options.partition, division.patches, division.places.lengths());
-    sample = begin_sample(nodes, heads, division, me, options, reuses_patches);
-  });
-  return sample;
 }
 
 }  // namespace
@@ -215,12 +183,12 @@ Division divide(const LocalNodes& nodes, const Corners& corners, const Places& p
   assert(left(corners[0].point, corners[1].point, corners[2].point) != 0);
   Division division(places);
   GlobalSample sample = sample_of_all(nodes, ranks, options, division);
-  ranks.all_gather_in_place(sample.nodes.data(), sample.begin);
   Outcome outcome = Outcome::of([&] {
-    std::vector<Record> known{corners.begin(), corners.end()};
+    std::vector<SentNode> known{corners.begin(), corners.end()};
     if (sample.looks_through && options.given == nullptr)
-      look_for_hidden_nodes(along_curve(sample.nodes, kLookedThrough, known), places);
-    division.closing = along_curve(sample.nodes, options.closing_nodes, std::move(known));
+      look_for_hidden_nodes(some_of(sample.nodes, kLookedThrough, known), places);
+    division.closing = some_of(sample.nodes, options.closing_nodes, std::move(known));
+    sort_along_curve(division.closing);
   });
   if (options.given != nullptr) {
     division.partition = options.given;

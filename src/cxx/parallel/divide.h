@@ -13,7 +13,7 @@
 #include "parallel/partition.h"
 #include "parallel/patch_ranges.h"
 #include "parallel/places.h"
-#include "parallel/record.h"
+#include "parallel/sent_node.h"
 
 namespace pstripack {
 
@@ -40,7 +40,7 @@ struct ParallelOptions {
 };
 
 /// Three nodes that are not on one great circle, the same on every rank.
-using Corners = std::array<Record, 3>;
+using Corners = std::array<SentNode, 3>;
 
 /// The sphere cut into patches. The same on every rank.
 struct Division {
@@ -49,7 +49,7 @@ struct Division {
   std::size_t nodes = 0;  ///< of all ranks
   PatchRanges patches;
   std::shared_ptr<const Partition> partition;
-  std::vector<Record> closing;  ///< nodes of the sample that every patch knows
+  std::vector<SentNode> closing;  ///< nodes of the sample that every patch knows
 };
 
 /// Collective. Throws AgreedFailure, HiddenNode or PatchesDoNotPay.

@@ -38,14 +38,20 @@ std::vector<NodeAddress> addresses_of(const std::vector<HaloNode>& outside, cons
   return addresses;
 }
 
-void fetch_numbers(std::vector<HaloNode>& outside, const LocalNodes& nodes, const NodeRanges& ranges,
-                   Communicator& ranks) {
+void fetch_halo(std::vector<HaloNode>& outside, const LocalNodes& nodes, const NodeRanges& ranges,
+                Communicator& ranks) {
   std::vector<NodeAddress> addresses;
   in_agreement(ranks, [&] { addresses = addresses_of(outside, ranges); });
   Halo(addresses, ranks)
-      .fetch<GlobalNumber>(
-          ranks, [&](LocalNode k) { return nodes.number(k); },
-          [&](OutsideNode j, GlobalNumber number) { outside[index_of(j)].number = number; });
+      .fetch<SentNode>(
+          ranks,
+          [&](LocalNode k) {
+            return SentNode{nodes.points[k], nodes.number(k)};
+          },
+          [&](OutsideNode j, const SentNode& node) {
+            outside[index_of(j)].point = node.point;
+            outside[index_of(j)].number = node.number;
+          });
   std::sort(outside.begin(), outside.end(),
             [](const HaloNode& a, const HaloNode& b) { return a.number < b.number; });
 }

@@ -1,6 +1,6 @@
 #pragma once
-// The nodes of other ranks that are neighbours of nodes here. Each comes with its address, so a rank asks its
-// owner for what it wants to know.
+// Halo: the nodes of other ranks that are neighbours of nodes here. Each comes with its address, so a rank
+// asks its owner for what it wants to know.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +12,7 @@
 #include "parallel/communicator.h"
 #include "parallel/local_nodes.h"
 #include "parallel/node_ranges.h"
+#include "parallel/sent_node.h"
 
 namespace pstripack {
 
@@ -62,9 +63,10 @@ class Halo {
   std::unordered_set<std::uint64_t> sent_;         ///< keys of send_; filled by the first send()
 };
 
-/// Fetches the caller's number of each node outside, and sorts them by it. Collective. Throws AgreedFailure.
-void fetch_numbers(std::vector<HaloNode>& outside, const LocalNodes& nodes, const NodeRanges& ranges,
-                   Communicator& ranks);
+/// Fetches point and caller's number of each node outside, and sorts them by number. Collective. Throws
+/// AgreedFailure.
+void fetch_halo(std::vector<HaloNode>& outside, const LocalNodes& nodes, const NodeRanges& ranges,
+                Communicator& ranks);
 
 /// The addresses of these nodes. Throws std::bad_alloc.
 std::vector<NodeAddress> addresses_of(const std::vector<HaloNode>& outside, const NodeRanges& ranges);

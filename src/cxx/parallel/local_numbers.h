@@ -26,7 +26,7 @@ using LocalNode = std::uint32_t;
 /// A node among those that this rank brought in the last call.
 using LastNode = std::uint32_t;
 
-/// A node among PatchNodes, those that a patch is given: first its own ones, then its halo. The nodes from
+/// A node among PatchNodes, those that a patch is given: first its own ones, then its margin. The nodes from
 /// everywhere come after these. Its HullNode is another number: the hull has them along a curve.
 using PatchNode = std::uint32_t;
 

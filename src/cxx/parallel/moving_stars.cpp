@@ -35,9 +35,10 @@ MovingStars::MovingStars(const NodeRanges& ranges, std::size_t size, RankNumber 
       me_(static_cast<RankOfNode>(me)),
       outside_by_counted_(outside + outside + kRoom) {}
 
-template <class Int, class Begin>
-std::unique_ptr<MovingStars> MovingStars::make_by(const NodeRanges& ranges, const Stars<Int>& stars,
-                                                  Communicator& ranks, const Begin& begin) {
+template <class Int>
+std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes& nodes, const NodeRanges& ranges,
+                                               const Stars<Int>& stars, Communicator& ranks,
+                                               std::unique_ptr<MovingStars> last, const Relocation* way) {
   std::int64_t sums[] = {static_cast<std::int64_t>(stars.of_node.arcs()),
                          static_cast<std::int64_t>(stars.outside.size())};
   ranks.all_sum(sums, 2);
@@ -59,7 +60,11 @@ std::unique_ptr<MovingStars> MovingStars::make_by(const NodeRanges& ranges, cons
           moving->outside_.push_back({node.counted, node.number, 0});
         }
         outside = addresses_of(stars.outside, ranges);
-        are_closed.value = begin(*moving);
+        constexpr std::size_t kFew = 8;  // one node in kFew may lie far from its neighbours in memory
+        if (way != nullptr && last != nullptr && last->come_ + way->come() <= nodes.count / kFew)
+          moving->begin_with(*last, *way, stars);
+        else
+          are_closed.value = moving->begin(nodes, stars);
         if (!are_closed.value) return;
         moving->mesh_->for_each_arc_outside([&](std::size_t j) { ++moving->outside_[j].arcs; });
         moving->sort_outside();
@@ -68,25 +73,6 @@ std::unique_ptr<MovingStars> MovingStars::make_by(const NodeRanges& ranges, cons
   if (!are_closed.value) return nullptr;
   moving->halo_ = Halo(outside, ranks);
   return moving;
-}
-
-template <class Int>
-std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes& nodes, const NodeRanges& ranges,
-                                               const Stars<Int>& stars, Communicator& ranks) {
-  return make_by(ranges, stars, ranks, [&](MovingStars& moving) { return moving.begin(nodes, stars); });
-}
-
-template <class Int>
-std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes& nodes, const Stars<Int>& stars,
-                                               Communicator& ranks, std::unique_ptr<MovingStars> last,
-                                               const Relocation& way) {
-  constexpr std::size_t kFew = 8;  // one node in kFew may lie far from its neighbours in memory
-  const bool is_of_use = last != nullptr && last->come_ + way.come() <= nodes.count / kFew;
-  return make_by(way.ranges(), stars, ranks, [&](MovingStars& moving) {
-    if (!is_of_use) return moving.begin(nodes, stars);
-    moving.begin_with(*last, way, stars);
-    return true;
-  });
 }
 
 /// Lays out the stars. False if one is that of a boundary node.
@@ -179,29 +165,11 @@ bool MovingStars::repair(const LocalNodes& nodes, Communicator& ranks, Confirm c
 /// Sets the positions of the nodes here and of those outside. True if all have the length that `confirm`
 /// needs.
 bool MovingStars::move_nodes(const LocalNodes& nodes, Communicator& ranks, Confirm confirm) {
-  constexpr std::size_t kAhead = 16;
-  const bool is_exact = confirm == Confirm::directions;
-  const auto is_one = [&](const Point& p) {
-    return is_exact ? length_is_one_up_to_rounding(p) : length_is_one(p);
-  };
-  MovingMesh& mesh = *mesh_;
-  std::atomic<bool> all_have_length_one{true};
-  nodes.points.visit([&](const auto& node) {
-    parallel_pieces(nodes.count, threads_for(nodes.count), [&](std::size_t first, std::size_t last, int) {
-      bool have_length_one = true;
-      for (std::size_t k = first; k < last; ++k) {
-        if (k + kAhead < last) mesh.prefetch(k + kAhead);
-        const Point p = node(k);
-        have_length_one = have_length_one & is_one(p);
-        mesh.node(k) = p;
-      }
-      if (!have_length_one) all_have_length_one = false;
-    });
-  });
+  const bool fit = mesh_->move(nodes.points, confirm).fit;
   halo_.fetch<Point>(
-      ranks, [&](LocalNode k) { return mesh.node(k); },
-      [&](OutsideNode j, const Point& p) { mesh.node(nodes.count + index_of(j)) = p; });
-  return all_have_length_one;
+      ranks, [&](LocalNode k) { return mesh_->node(k); },
+      [&](OutsideNode j, const Point& p) { mesh_->node(nodes.count + index_of(j)) = p; });
+  return fit;
 }
 
 /// The mark that the first rank with nodes chooses; none if it finds none.
@@ -230,7 +198,7 @@ bool MovingStars::propose(const LocalNodes& nodes, std::vector<Flip>& flips) {
     if (!mesh_->is_convex(q)) return false;
     const auto corner = [&](MeshNode v) {
       const GlobalNumber number = v < nodes.count ? nodes.number(v) : outside_[v - nodes.count].number;
-      return Corner{counted(v), number, mesh_->node(v)};
+      return Corner{mesh_->node(v), counted(v), number};
     };
     flips.push_back({{corner(q.a), corner(q.b), corner(q.c), corner(q.d)}});
   }
@@ -329,61 +297,43 @@ bool MovingStars::meet(const Corner& one, const Corner& other) {
 MeshNode MovingStars::find(GlobalNumber counted) const {
   if (is_here(counted)) return static_cast<MeshNode>(value_of(counted) - ranges_.first(me_));
   if (counted == kNoNumber) return MovingMesh::kNobody;
-  const MeshNode* const found = outside_by_counted_.find_value(counted);
+  const MeshNode* const found = outside_by_counted_.find(counted);
   return found != nullptr ? *found : MovingMesh::kNobody;
 }
 
 // ---- what has changed ----------------------------------------------------------------------------------
 
-std::vector<LocalNode> MovingStars::changed() const {
-  std::vector<LocalNode> nodes;
-  for (const auto& change : mesh_->changes()) nodes.push_back(change.node);
-  return nodes;
-}
-
-/// The rings of these nodes, one after another, as they are stored: see Ring.
-template <class Int, class Number>
-Buffer<Int> MovingStars::rings_of(const std::vector<LocalNode>& nodes, const Number& number) const {
-  std::size_t entries = 0;
-  for (const LocalNode k : nodes) entries += 1 + mesh_->degree(k);
-  Buffer<Int> rings(entries + kBlock);  // see copy_ring
-  std::vector<std::int32_t> ring;
-  Int* at = rings.data();
-  for (const LocalNode k : nodes) {
-    ring.resize(mesh_->degree(k));
-    mesh_->write_ring(k, ring.data());
-    *at++ = static_cast<Int>(ring.size());
-    Int* const first = at;
-    at = std::transform(ring.begin(), ring.end(), at, [&](std::int32_t v) {
-      return static_cast<Int>(number(static_cast<MeshNode>(v) - 1));
-    });
-    std::rotate(first, std::min_element(first, at), at);
-  }
-  return rings;
-}
-
 template <class Int>
 void MovingStars::update(Stars<Int>& stars) {
   const std::size_t n = mesh_->size();
-  std::vector<LocalNode> rewritten = changed();
+  std::vector<LocalNode> rewritten;
   const bool all = replaced_ > 8 * n;  // then rings that are not used any more are freed
   if (all) {
     rewritten.resize(n);
     std::iota(rewritten.begin(), rewritten.end(), 0u);
-    replaced_ = 0;
+  } else {
+    for (const MovingMesh::Change& change : mesh_->changes()) rewritten.push_back(change.node);
   }
-  stars.more_memory.reserve(stars.more_memory.size() + 1);
-  Buffer<Int> rings = rings_of<Int>(rewritten, [&](MeshNode v) { return counted(v); });
-  const Int* at = rings.data();
+  std::size_t entries = 0;
+  for (const LocalNode k : rewritten) entries += 1 + mesh_->degree(k);
+  stars.memory.reserve(stars.memory.size() + 1);
+  Block rings((entries + kBlock) * sizeof(Int));  // see copy_ring
+  std::vector<std::int32_t> ring;
+  Int* at = reinterpret_cast<Int*>(rings.data());
   for (const LocalNode k : rewritten) {
-    stars.of_node.replace(k, at);
-    at += 1 + *at;
+    ring.resize(mesh_->degree(k));
+    mesh_->write_ring(k, ring.data());
+    stars.of_node.replace(k, at, static_cast<std::uint32_t>(ring.size()));
+    *at++ = static_cast<Int>(ring.size());
+    Int* const first = at;
+    at = std::transform(ring.begin(), ring.end(), at, [&](std::int32_t v) {
+      return static_cast<Int>(counted(static_cast<MeshNode>(v) - 1));
+    });
+    std::rotate(first, std::min_element(first, at), at);
   }
-  if (all)
-    stars.more_memory.clear();
-  else
-    replaced_ += static_cast<std::size_t>(at - rings.data());
-  stars.more_memory.push_back(std::move(rings));
+  if (all) stars.memory.clear();
+  replaced_ = all ? 0 : replaced_ + entries;
+  stars.memory.push_back(std::move(rings));
   mesh_->forget_changes();
 
   if (!by_number_) sort_outside();
@@ -392,22 +342,9 @@ void MovingStars::update(Stars<Int>& stars) {
     const Outside& node = outside_[index_of(j)];
     stars.outside.push_back({mesh_->node(n + index_of(j)), node.counted, node.number});
   }
-  stars.lengths = Lengths::as_given;
 }
 
 // ---- samples -------------------------------------------------------------------------------------------
-
-SampleOfStars MovingStars::sample() const {
-  SampleOfStars sample;
-  std::vector<std::int32_t> ring;
-  SampleOfStars::for_each_node(mesh_->size(), [&](std::size_t k) {
-    ring.resize(mesh_->degree(k));
-    mesh_->write_ring(k, ring.data());
-    if (static_cast<std::size_t>(*std::max_element(ring.begin(), ring.end())) <= mesh_->size())
-      sample.add(k, ring.data(), ring.size());
-  });
-  return sample;
-}
 
 template <class Int>
 SampleOfStars sample_of(const Stars<Int>& stars, const NodeRanges& ranges, RankNumber me) {
@@ -426,17 +363,13 @@ SampleOfStars sample_of(const Stars<Int>& stars, const NodeRanges& ranges, RankN
 
 template SampleOfStars sample_of(const Stars<std::int32_t>&, const NodeRanges&, RankNumber);
 template std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes&, const NodeRanges&,
-                                                        const Stars<std::int32_t>&, Communicator&);
-template std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes&, const Stars<std::int32_t>&,
-                                                        Communicator&, std::unique_ptr<MovingStars>,
-                                                        const Relocation&);
+                                                        const Stars<std::int32_t>&, Communicator&,
+                                                        std::unique_ptr<MovingStars>, const Relocation*);
 template void MovingStars::update(Stars<std::int32_t>&);
 template SampleOfStars sample_of(const Stars<std::int64_t>&, const NodeRanges&, RankNumber);
 template std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes&, const NodeRanges&,
-                                                        const Stars<std::int64_t>&, Communicator&);
-template std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes&, const Stars<std::int64_t>&,
-                                                        Communicator&, std::unique_ptr<MovingStars>,
-                                                        const Relocation&);
+                                                        const Stars<std::int64_t>&, Communicator&,
+                                                        std::unique_ptr<MovingStars>, const Relocation*);
 template void MovingStars::update(Stars<std::int64_t>&);
 
 }  // namespace pstripack

@@ -8,8 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "base/buffer.h"
-#include "base/workspace.h"
+#include "base/cached.h"
 #include "mesh/flips.h"
 #include "mesh/sample_of_stars.h"
 #include "parallel/communicator.h"
@@ -33,16 +32,13 @@ class MovingStars {
  public:
   /// From the stars of these nodes, which may have moved since; numbers in the stars are counted by `ranges`.
   /// Null, on every rank, if the mesh has a boundary or all ranks together have more nodes outside than
-  /// nodes. Collective. Throws AgreedFailure.
+  /// nodes. If the stars are way->stars(), it takes less time on a rank that has the MovingStars of the last
+  /// call; these are used up. Collective. Throws AgreedFailure.
   template <class Int>
   static std::unique_ptr<MovingStars> make(const LocalNodes& nodes, const NodeRanges& ranges,
-                                           const Stars<Int>& stars, Communicator& ranks);
-  /// The same for stars that are way.stars(). It takes less time on a rank that has the MovingStars of the
-  /// last call; these are used up.
-  template <class Int>
-  static std::unique_ptr<MovingStars> make(const LocalNodes& nodes, const Stars<Int>& stars,
-                                           Communicator& ranks, std::unique_ptr<MovingStars> last,
-                                           const Relocation& way);
+                                           const Stars<Int>& stars, Communicator& ranks,
+                                           std::unique_ptr<MovingStars> last = nullptr,
+                                           const Relocation* way = nullptr);
 
   /// Makes them the stars in the Delaunay triangulation of the same nodes at their current positions, and
   /// returns true. Returns false where MovingMesh::repair() would. The result is the same on every rank.
@@ -50,18 +46,13 @@ class MovingStars {
   bool repair(const LocalNodes& nodes, Communicator& ranks, Confirm confirm = Confirm::nothing);
   std::size_t flips() const { return mesh_->flips() - flips_of_others_; }  ///< the sum of all ranks' counts
   int rounds() const { return rounds_; }                                   ///< exchanges of flips
-  std::size_t halo() const { return outside_.size(); }
 
   /// After repair(): updates the stars that were given to make(). Throws std::bad_alloc.
   template <class Int>
   void update(Stars<Int>& stars);
-  SampleOfStars sample() const;  ///< as sample_of()
 
  private:
-  struct Corner {
-    GlobalNumber counted, number;  ///< as in HaloNode
-    Point point;
-  };
+  using Corner = HaloNode;
   /// The corners a, b, c, d of MovingMesh::Quadrangle. It is proposed by a rank that has a.
   struct Flip {
     Corner corner[4];
@@ -85,10 +76,6 @@ class MovingStars {
   };
 
   MovingStars(const NodeRanges& ranges, std::size_t size, RankNumber me, std::size_t outside);
-  /// begin(moving) lays out the mesh; false if it has a boundary.
-  template <class Int, class Begin>
-  static std::unique_ptr<MovingStars> make_by(const NodeRanges& ranges, const Stars<Int>& stars,
-                                              Communicator& ranks, const Begin& begin);
   template <class Int>
   bool begin(const LocalNodes& nodes, const Stars<Int>& stars);
   template <class Int>
@@ -103,9 +90,6 @@ class MovingStars {
   bool flip_all(const Proposals& proposals);
   bool flip_one(const Flip& flip);
   bool meet(const Corner& one, const Corner& other);
-  std::vector<LocalNode> changed() const;
-  template <class Int, class Number>
-  Buffer<Int> rings_of(const std::vector<LocalNode>& nodes, const Number& number) const;
   bool is_here(GlobalNumber counted) const { return ranges_.is_of(me_, counted); }
   /// The node of the mesh here; kNobody if this rank does not know it.
   MeshNode find(GlobalNumber counted) const;

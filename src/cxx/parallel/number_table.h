@@ -1,72 +1,81 @@
 #pragma once
 
-#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "base/splitmix64.h"
-#include "base/workspace.h"
 #include "parallel/global_number.h"
 #include "parallel/local_numbers.h"
 
 namespace pstripack {
 
-/// The rank that collects what all ranks say of a number. It depends on other bits of the number's hash than
-/// the places in a NumberTable there.
-inline RankNumber meeting_rank(GlobalNumber number, std::size_t ranks) {
-  return static_cast<RankNumber>((splitmix64(static_cast<std::uint64_t>(number)) >> 32) * ranks >> 32);
+inline std::uint64_t hash_of(GlobalNumber number) { return splitmix64(static_cast<std::uint64_t>(number)); }
+template <class Int>
+std::uint64_t hash_of(const std::array<Int, 3>& numbers) {
+  const auto a = static_cast<std::uint64_t>(numbers[0]), b = static_cast<std::uint64_t>(numbers[1]),
+             c = static_cast<std::uint64_t>(numbers[2]);
+  return splitmix64(a ^ b << 22 ^ c << 43 ^ c >> 21);
 }
 
-/// Finds values by number. Throws std::bad_alloc when made, never later.
-template <class Value>
-class NumberTable {
+/// The rank that collects what all ranks say of a number. It depends on other bits of the number's hash than
+/// the places in a Table there.
+inline RankNumber meeting_rank(GlobalNumber number, std::size_t ranks) {
+  return static_cast<RankNumber>((hash_of(number) >> 32) * ranks >> 32);
+}
+
+/// Finds values by keys, which have a hash_of(); Key{}, as kNoNumber, is none. Throws std::bad_alloc when
+/// made, and in insert() if there are more than `most`.
+template <class Key, class Value>
+class Table {
  public:
-  explicit NumberTable(std::size_t most) {
+  explicit Table(std::size_t most = 0) {
     std::size_t places = 16;
     while (places < 2 * most) places *= 2;
-    place_ = BlockArray<Place>(places);
-    std::fill(place_.begin(), place_.end(), Place{});
+    place_.resize(places);
   }
 
-  /// The value of the number, and whether the number is new: a new one gets `value`.
-  std::pair<Value, bool> insert(GlobalNumber number, Value value) {
-    Place& place = place_[find(number)];
-    if (place.number == number) return {place.value, false};
-    place = {number, value};
+  /// The value of the key, and whether the key is new: a new one gets `value`.
+  std::pair<Value, bool> insert(const Key& key, Value value) {
+    if (Place& place = place_[find_place(key)]; place.key == key) return {place.value, false};
+    if (2 * ++size_ > place_.size()) grow();
+    place_[find_place(key)] = {key, value};
     return {value, true};
   }
-  /// Changes the value of the number if it is in the table.
-  void set(GlobalNumber number, Value value) {
-    if (Place& place = place_[find(number)]; place.number == number) place.value = value;
+  /// Null if the key is not in the table.
+  Value* find(const Key& key) {
+    Place& place = place_[find_place(key)];
+    return place.key == key ? &place.value : nullptr;
   }
-  /// The number must be in the table.
-  Value at(GlobalNumber number) const { return place_[find(number)].value; }
-  /// Null if the number is not in the table.
-  const Value* find_value(GlobalNumber number) const {
-    const Place& place = place_[find(number)];
-    return place.number == number ? &place.value : nullptr;
-  }
-  /// A hint that the number will be asked for soon.
-  [[gnu::always_inline]] void prefetch(GlobalNumber number) const {
-    __builtin_prefetch(&place_[home(number)], 1);
-  }
+  const Value* find(const Key& key) const { return const_cast<Table*>(this)->find(key); }
+  /// A hint that the key will be asked for soon.
+  [[gnu::always_inline]] void prefetch(const Key& key) const { __builtin_prefetch(&place_[home(key)], 1); }
 
  private:
   struct Place {
-    GlobalNumber number;  // kNoNumber: empty
-    Value value;
+    Key key{};
+    Value value{};
   };
-  std::size_t home(GlobalNumber number) const {
-    return splitmix64(static_cast<std::uint64_t>(number)) & (place_.size() - 1);
-  }
-  std::size_t find(GlobalNumber number) const {
-    std::size_t at = home(number);
-    while (place_[at].number != number && place_[at].number != kNoNumber) at = (at + 1) & (place_.size() - 1);
+  std::size_t home(const Key& key) const { return hash_of(key) & (place_.size() - 1); }
+  std::size_t find_place(const Key& key) const {
+    std::size_t at = home(key);
+    while (!(place_[at].key == key) && !(place_[at].key == Key{})) at = (at + 1) & (place_.size() - 1);
     return at;
   }
-  BlockArray<Place> place_;
+  void grow() {
+    std::vector<Place> smaller(2 * place_.size());
+    smaller.swap(place_);
+    for (const Place& place : smaller)
+      if (!(place.key == Key{})) place_[find_place(place.key)] = place;
+  }
+  std::vector<Place> place_;
+  std::size_t size_ = 0;
 };
+
+/// By the number of a node.
+template <class Value>
+using NumberTable = Table<GlobalNumber, Value>;
 
 }  // namespace pstripack

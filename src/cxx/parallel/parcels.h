@@ -33,7 +33,13 @@ class ParcelWriter {
   }
   /// Then: memory for all that is expected and for `beyond` bytes behind it that may be written. Throws
   /// std::bad_alloc.
-  void make_room(std::size_t beyond = 0);
+  void make_room(std::size_t beyond = 0) {
+    for (RankNumber r = 1; r < parcels_.begin.size(); ++r)
+      parcels_.begin[r] =
+          parcels_.begin[r - 1] + (parcels_.begin[r] + alignment_ - 1) / alignment_ * alignment_;
+    end_ = parcels_.begin;
+    if (!empty()) parcels_.bytes = Block(parcels_.begin.back() + beyond);
+  }
   /// True if nothing is expected.
   bool empty() const { return parcels_.begin.back() == 0; }
   /// Then: room for the next n items for this rank.

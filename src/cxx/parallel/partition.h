@@ -5,10 +5,11 @@
 // hold a few nodes of a sample; every cell belongs to one patch. The same tree on every rank makes the same
 // decisions on every rank.
 //
-//     +-------+-------+      A patch q knows its own nodes and its halo: all nodes x of another cell that are
-//     |   :   |   .   |      no farther from q than that cell's margin, a few distances between nodes there:
-//     |...:...|.q.....|          distance(q, x) <= margin(cell of x).
-//     |   :   |   :   |      So the halo is thin where nodes are dense.
+//     +-------+-------+      A patch q knows its own nodes and its margin: all nodes x of another cell that
+//     are |   :   |   .   |      no farther from q than that cell's reach, a few distances between nodes
+//     there:
+//     |...:...|.q.....|          distance(q, x) <= reach(cell of x).
+//     |   :   |   :   |      So the margin is thin where nodes are dense.
 //     +-------+-------+
 
 #include <algorithm>
@@ -26,9 +27,8 @@ namespace pstripack {
 
 /// How the sphere is cut into patches. All kinds give the same triangulation, bit for bit.
 enum class PartitionKind {
-  bisection,         ///< boxes with equal numbers of nodes, by recursive bisection along x, y, z
-  stripes,           ///< stripes of longitude with equal numbers of nodes
-  stripes_of_width,  ///< stripes of longitude of equal width, as published
+  bisection,  ///< boxes with equal numbers of nodes, by recursive bisection along x, y, z
+  stripes,    ///< stripes of longitude with equal numbers of nodes
 };
 
 /// All of them in this order, and what pictures call them.
@@ -37,8 +37,7 @@ struct NamedPartition {
   const char* name;
 };
 inline constexpr NamedPartition kPartitions[] = {{PartitionKind::bisection, "bisection"},
-                                                 {PartitionKind::stripes, "stripes"},
-                                                 {PartitionKind::stripes_of_width, "stripes_of_width"}};
+                                                 {PartitionKind::stripes, "stripes"}};
 inline const char* name_of(PartitionKind kind) { return kPartitions[static_cast<int>(kind)].name; }
 
 class Partition {
@@ -48,154 +47,97 @@ class Partition {
   /// Bisection by these cuts.
   Partition(const Cuts& cuts, std::vector<Point> sample, std::size_t nodes);
 
-  /// Patches of any shape with any halos, for tests.
+  /// Patches of any shape with any margins, for tests.
   struct Rule {
     std::function<PatchNumber(const Point&)> owner;
-    std::function<bool(PatchNumber, const Point&)> is_in_halo;  ///< of any patch but the owner
+    std::function<bool(PatchNumber, const Point&)> is_in_margin;  ///< of any patch but the owner
   };
   Partition(int patches, Rule rule);
   int patches() const { return static_cast<int>(regions_.size()); }
 
   /// The patches that n places belong to. nearest_plane[i] is the distance of x[i] from the nearest plane
-  /// that it was compared with, less rounding: a lower bound of its distance from any other patch.
+  /// that it was compared with: a lower bound of its distance from any other patch.
   void owners(const Point* x, std::size_t n, PatchOfNode* owner, double* nearest_plane) const;
   /// The patch that x belongs to.
   PatchNumber owner(const Point& x) const {
     if (rule_.owner) return rule_.owner(x);
     std::int32_t k = 0;
-    while (cells_[k].patch < 0) k = cells_[k].child[is_beyond(cells_[k], x)];
+    while (cells_[k].patch < 0) k = cells_[k].child_of(x);
     return cells_[k].patch;
   }
 
-  /// Writes the indices of those of n places that may be another patch's own or in its halo, in increasing
-  /// order, and returns their number. The other places are deep in this patch.
-  std::size_t not_deep(PatchNumber patch, const Point* x, std::size_t n, std::uint32_t* which) const;
-
-  /// A lower bound of the distance of x from the patch; 0 or less inside. If x moves by d, it changes by at
-  /// most d.
-  double distance(PatchNumber patch, const Point& x) const;
-
-  /// Calls visit(i, q) for each of n places and each patch q that has x[i] in its halo. `owner` and
+  /// Calls visit(i, q) for each of n places and each patch q that has x[i] in its margin. `owner` and
   /// `nearest_plane` are those of owners().
   template <class Visit>
-  void for_each_halo(const Point* x, std::size_t n, const PatchOfNode* owner, const double* nearest_plane,
-                     const Visit& visit) const {
-    if (rule_.owner) {
-      for (std::size_t i = 0; i < n; ++i)
+  void for_each_margin(const Point* x, std::size_t n, const PatchOfNode* owner, const double* nearest_plane,
+                       const Visit& visit) const {
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto home = static_cast<PatchNumber>(owner[i]);
+      if (rule_.owner) {
         for (PatchNumber q = 0; q < patches(); ++q)
-          if (q != static_cast<PatchNumber>(owner[i]) && rule_.is_in_halo(q, x[i])) visit(i, q);
-      return;
-    }
-    double margin[kTogether];  // exact where it is at least nearest_plane
-    std::vector<PatchNumber> patches;
-    const auto examine = [&](const std::size_t* candidate, std::size_t candidates) {
-      margins(x, owner, nearest_plane, candidate, candidates, margin);
-      for (std::size_t j = 0; j < candidates; ++j) {
-        const std::size_t i = candidate[j];
-        if (nearest_plane[i] > margin[j]) continue;
-        const Region& region = regions_[owner[i]];
-        if (!region.is_box) {
-          patches.clear();
-          near(x[i], margin[j], patches);
-        }
-        for (const PatchNumber q : region.is_box ? region.beside : patches)
-          if (q != static_cast<PatchNumber>(owner[i]) && is_within(margin[j], q, x[i])) visit(i, q);
+          if (q != home && rule_.is_in_margin(q, x[i])) visit(i, q);
+      } else if (nearest_plane[i] <= regions_[home].reach) {
+        const double reach = reach_at(x[i], regions_[home].root, nearest_plane[i]);
+        if (nearest_plane[i] <= reach) for_each_near(home, x[i], reach, [&](PatchNumber q) { visit(i, q); });
       }
-    };
-    const double* const largest_margin = largest_margin_.data();
-    for (std::size_t i = 0; i < n;) {
-      std::size_t candidate[kTogether], candidates = 0;  // not seen by examine(): a count in a register
-      for (; i < n && candidates < kTogether; ++i) {
-        candidate[candidates] = i;
-        candidates += nearest_plane[i] <= largest_margin[owner[i]];
-      }
-      examine(candidate, candidates);
     }
   }
 
-  /// True if x is patch q's own or in its halo.
-  bool knows(PatchNumber q, const Point& x) const {
-    if (rule_.owner) return owner(x) == q || rule_.is_in_halo(q, x);
-    return owner(x) == q || is_within(margin_at(x), q, x);
-  }
+  // What for_each_margin() goes by: x is in the margin of each patch, but its own, that is within the reach
+  // of the cell of x.
+  double reach(const Point& x) const { return reach_at(x, 0, 0); }
+  /// A lower bound of the distance of x from a patch that it does not belong to.
+  double distance(PatchNumber patch, const Point& x) const;
 
  private:
   struct Plane {
-    double x, y, z, d;  // inside: the product is at least d
+    double x, y, z, d;  // beyond: the product is at least d
   };
-  struct Piece {
-    std::vector<Plane> planes;
-  };
+  static double product(const Plane& p, const Point& x) { return p.x * x.x + p.y * x.y + p.z * x.z; }
+  /// A patch. Between these heights across x, y and z, if it is a box.
   struct Region {
-    std::vector<Piece> pieces;
-    std::int32_t root = 0;  // all its cells are below this one
-    bool is_box = false;    // between these heights across x, y and z
     double low[3] = {-8, -8, -8}, high[3] = {8, 8, 8};
-    double rounded_low[3] = {-8, -8, -8}, rounded_high[3] = {8, 8, 8};  // the same, wider by rounding
-    std::vector<PatchNumber> beside;  // of a box: patches that may have nodes of this one in their halo
+    std::int32_t root = 0;            // all its cells are below this one
+    double reach = 0;                 // the largest of its cells
+    std::vector<PatchNumber> beside;  // of a box: patches that may have nodes of this one in their margin
   };
   /// A node of the tree.
   struct Cell {
-    Plane split;             // child[1] has what is inside
-    std::int32_t child[2];   // 0: a leaf
-    PatchNumber patch = -1;  // of all leaves below, if it is one patch
-    double margin = 0;       // of a leaf; otherwise the smallest below
-    double largest = 0;      // margin of the leaves below
-  };
-
-  /// Number of descents in the tree that run side by side, level by level: a single one would wait for each
-  /// of its comparisons.
-  static constexpr std::size_t kTogether = 16;
-
-  /// Rounding of places: relative to the height of a plane across an axis; absolute for planes through the
-  /// centre.
-  static constexpr double kRounding = 0x1p-48;
-  static double rounding_at(const Plane& p) { return kRounding * (p.d != 0 ? std::fabs(p.d) : 1); }
-
-  static double product(const Plane& p, const Point& x) { return p.x * x.x + p.y * x.y + p.z * x.z; }
-  /// The axis that a plane is across.
-  static int axis_of(const Plane& p) { return p.x != 0 ? 0 : p.y != 0 ? 1 : 2; }
-  static bool is_beyond(const Cell& cell, const Point& x) { return product(cell.split, x) >= cell.split.d; }
-
-  /// True if x is no farther from the patch than the margin, up to rounding.
-  bool is_within(double margin, PatchNumber patch, const Point& x) const {
-    const Region& r = regions_[patch];
-    if (!r.is_box) return distance(patch, x) <= margin + kRounding;
-    return std::max({r.rounded_low[0] - x.x, x.x - r.rounded_high[0], r.rounded_low[1] - x.y,
-                     x.y - r.rounded_high[1], r.rounded_low[2] - x.z, x.z - r.rounded_high[2]}) <= margin;
-  }
-
-  /// The cell of x.
-  std::size_t leaf(const Point& x) const {
-    std::int32_t k = 0;
-    while (cells_[k].child[1] != 0) k = cells_[k].child[is_beyond(cells_[k], x)];
-    return static_cast<std::size_t>(k);
-  }
-  double margin_at(const Point& x) const { return cells_[leaf(x)].margin; }
-  /// The margins of the cells of x[which[0..n-1]], n <= kTogether; any value less than nearest_plane if the
-  /// margin is less.
-  void margins(const Point* x, const PatchOfNode* owner, const double* nearest_plane,
-               const std::size_t* which, std::size_t n, double* margin) const;
-  /// The patches within `radius` of x, each once.
-  void near(const Point& x, double radius, std::vector<PatchNumber>& patches) const;
-
-  /// A node of the top of the tree, which ends at cells of one patch. Such a cell is its own child.
-  struct Top {
     Plane split;
-    double rounding;
-    std::int32_t child[2];
-    PatchNumber patch;
+    std::int32_t child[2];  // below and beyond; 0: a leaf
+    PatchNumber patch;      // of all leaves below, if it is one patch; else -1
+    double reach;           // of a leaf; otherwise the largest below
+    std::int32_t child_of(const Point& x) const { return child[product(split, x) >= split.d]; }
   };
-  void copy_top(std::int32_t cell, int depth);
-  void find_beside(PatchNumber patch);
 
-  explicit Partition(int patches);
+  /// The reach of the cell of x, which is below cell k; or any value less than `enough`, if it is less.
+  double reach_at(const Point& x, std::int32_t k, double enough) const {
+    while (cells_[k].child[1] != 0 && cells_[k].reach >= enough) k = cells_[k].child_of(x);
+    return cells_[k].reach;
+  }
+  /// Calls visit(q) for each patch q but the owner of x that is no farther than the reach. Stripes are met
+  /// counterclockwise, then clockwise: the first one that is too far hides the others.
+  template <class Visit>
+  void for_each_near(PatchNumber owner, const Point& x, double reach, const Visit& visit) const {
+    if (borders_.empty()) {
+      for (const PatchNumber q : regions_[owner].beside)
+        if (distance(q, x) <= reach) visit(q);
+      return;
+    }
+    const int n = patches();
+    int met = 1;
+    for (const int step : {1, n - 1})
+      for (int q = (owner + step) % n; met < n && distance(q, x) <= reach; q = (q + step) % n, ++met)
+        visit(q);
+  }
+
+  int levels_of(std::int32_t k) const;
+  explicit Partition(int patches) : regions_(static_cast<std::size_t>(patches)) {}
   class Builder;
-  std::vector<Top> top_;
-  int top_depth_ = 0;
   std::vector<Cell> cells_;
+  int levels_ = 0;  // of the tree above the cells of one patch
   std::vector<Region> regions_;
-  std::vector<double> largest_margin_;  // of the cells of each patch
+  std::vector<Plane> borders_;  // of stripes: where each begins, a plane through the axis
   Rule rule_;
 };
 

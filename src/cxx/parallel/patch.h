@@ -1,39 +1,44 @@
 #pragma once
 // One patch: the triangulation of its own nodes and of those around. In order: triangulate what it knows,
-// compare lists with other patches, learn, read off the rings.
+// compare lists with other patches, learn, read off the rings. docs/internals/parallel.md.
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "base/workspace.h"
 #include "parallel/local_numbers.h"
+#include "parallel/number_table.h"
 #include "parallel/partition.h"
 #include "parallel/patch_hull.h"
-#include "parallel/patch_lists.h"
-#include "parallel/patch_questions.h"
 #include "parallel/places.h"
-#include "parallel/record.h"
+#include "parallel/sent_node.h"
 
 namespace pstripack {
 
-/// Sums over stars.
-struct StarSums {
-  std::int64_t nodes = 0, neighbours = 0, boundary = 0;  ///< boundary: nodes at the boundary
+/// A triangle in a list: the numbers of its corners, counterclockwise, the smallest first.
+template <class Int>
+using Listed = std::array<Int, 3>;
 
-  void operator+=(const StarSums& other) {
-    nodes += other.nodes, neighbours += other.neighbours, boundary += other.boundary;
-  }
-  /// Euler's formula. V nodes, F triangles and B boundary arcs of a sphere (B = 0) or a disc have
-  /// V - (F + B)/2 = 2 or 1. A star has as many triangles as neighbours; at the boundary, one less.
-  bool are_of_sphere_or_disc() const {
-    return 6 * nodes - neighbours - 2 * boundary == (boundary > 0 ? 6 : 12);
-  }
+/// The list that another patch has sent.
+template <class Int>
+struct ListOfOther {
+  PatchNumber from;
+  const Listed<Int>* first;
+  std::size_t count;
 };
 
+/// "You lack this triangle. Does any of your nodes lie above it?"
+struct Question {
+  SentNode corner[3];
+  PatchNumber from, to;
+};
+
+/// A patch answers for the front triangles of its hull that have a corner of its own. The list for another
+/// patch has those that also have a corner of that patch.
 /// Int: a type that holds all node numbers. A patch without own nodes has no hull.
 template <class Int>
 class Patch {
@@ -50,41 +55,43 @@ class Patch {
   /// Sorts the patch's nodes and those of `closing` that it does not know: nodes of the sample, three of
   /// them not on one great circle, which close the hull on the far side of the sphere. The workspace must
   /// outlive the patch and its rings. Throws HiddenNode if a quick test finds one, std::bad_alloc.
-  void set_up(const std::vector<Record>& closing, Workspace& workspace);
+  void set_up(const std::vector<SentNode>& closing, Workspace& workspace);
   /// Triangulates them. Throws HiddenNode, std::bad_alloc.
-  void triangulate();
+  void triangulate() {
+    if (nodes_.own > 0) hull_.build();
+  }
 
   /// Adds nodes of other patches to the triangulation, unless it has them. Many are added along a curve, so
   /// that the search for each begins near it. Throws HiddenNode, std::bad_alloc.
-  void take_in(std::vector<Record> nodes);
+  void take_in(std::vector<SentNode> nodes);
 
   /// The answer of this patch to another's question: some nodes that lie above the triangle, if it knows any.
   /// A patch that answers takes in the corners of the question. Throws HiddenNode, std::bad_alloc.
-  std::vector<Record> answer(const Question& question) {
-    assert(nodes_.own > 0);  // among them is a corner
-    if (!hull_.coincident().empty()) return {};
-    return pstripack::answer(hull_, question);
-  }
+  std::vector<SentNode> answer(const Question& question);
 
   /// Finds the triangles that other patches must have, too. Throws std::bad_alloc.
-  void update_lists() {
-    if (nodes_.own > 0 && partition_->patches() > 1) lists_.update(view());
-    listed_ = known();
+  void update_lists();
+  /// The number of triangles in the list for each patch; empty if this patch has none.
+  const std::vector<std::size_t>& list_counts() const { return counts_; }
+  /// Calls visit(q, triangle) for each triangle of the list for each patch q.
+  template <class Visit>
+  void for_each_listed(const Visit& visit) const {
+    for (const Entry& e : entries_)
+      for (const PatchNumber q : e.other)
+        if (q != kNone) visit(q, e.triangle);
   }
-  const PatchLists<Int>& lists() const { return lists_; }
-  /// See PatchLists. Throws std::bad_alloc.
-  std::vector<Question> lacking(const std::vector<ListOfOther<Int>>& lists) const {
-    if (nodes_.own == 0) return {};
-    return lists_.lacking(view(), lists);
-  }
+  /// Compares the lists with those that the other patches have sent. Returns the triangles that these lack,
+  /// as questions to them. Throws std::bad_alloc.
+  std::vector<Question> lacking(const std::vector<ListOfOther<Int>>& lists) const;
 
   /// After the last lists: the triangulation. Throws HiddenNode.
-  void finish();
+  void finish() {
+    assert(known() == listed_ || partition_->patches() == 1);
+    if (nodes_.own > 0) finished_ = hull_.growing().finish();
+  }
   /// After finish(): room enough for the entries of all rings of its own nodes: the corners of all triangles,
   /// and for each node one more at the boundary and its count.
-  std::size_t entries() const {
-    return nodes_.own == 0 ? 0 : 3 * finished_.face_count + 2 * finished_.node_count;
-  }
+  std::size_t entries() const { return 3 * finished_.face_count + 2 * finished_.node_count; }
 
   /// After finish(): room for `bytes` in the workspace, in place of what is not needed any more; null if
   /// there is not enough.
@@ -92,23 +99,17 @@ class Patch {
 
   /// Writes the rings of its own nodes to `out`, which has room for all and 2*kBlock entries more; calls
   /// visit(i, place, count) for each: the ring of its node i lies at `place`; soon(i) some time before.
+  /// Returns the end.
   template <class Visit, class Soon>
-  StarSums write_rings(Int* out, const Visit& visit, const Soon& soon) const {
-    const Int* const end = hull_.write_rings(finished_, out, visit, soon);
-    const auto own = static_cast<std::int64_t>(nodes_.own);
-    StarSums sums{own, end - out - own, 0};
-    if (nodes_.own == 0 || finished_.surrounds_centre) return sums;
-    for (HullNode v = 0; v < hull_.built(); ++v) sums.boundary += hull_.is_own(v) && finished_.at_back[v];
-    return sums;
+  Int* write_rings(Int* out, const Visit& visit, const Soon& soon) const {
+    return hull_.write_rings(finished_, out, visit, soon);
   }
-
-  /// After finish(): calls visit(r, v) for each node v of the hull that rank r did not bring and that is a
-  /// neighbour of a node that r brought, perhaps more than once. Rank r brought the own nodes [own_from[r],
-  /// own_from[r+1]).
-  template <class Visit>
-  void for_each_missing_neighbour(const std::vector<std::size_t>& own_from, const Visit& visit) const;
-
-  Record node(HullNode v) const { return hull_.node(v); }
+  /// After finish(): the number of its own nodes at the boundary.
+  std::int64_t boundary_nodes() const {
+    std::int64_t nodes = 0;
+    for (HullNode v = 0; v < hull_.built(); ++v) nodes += !finished_.inner(v) && hull_.is_own(v);
+    return nodes;
+  }
 
   PatchNumber id() const { return id_; }
   std::size_t own() const { return nodes_.own; }
@@ -117,62 +118,188 @@ class Patch {
   const CoincidentPairs& coincident() const { return hull_.coincident(); }
 
  private:
-  PatchView<Int> view() const { return {id_, *partition_, hull_}; }
+  static constexpr PatchNumber kNone = -1;
+  struct Entry {
+    Listed<Int> triangle;
+    HullFace face;
+    std::array<PatchNumber, 2> other;  ///< owners of its other corners, each once; then kNone
+  };
+  /// The vertices of face t, the one with the smallest number first, so that each triangle has one name.
+  std::array<HullNode, 3> corners(HullFace t) const {
+    const auto& v = hull_.face(t).vertex;
+    std::uint32_t first = 0;
+    for (const std::uint32_t i : {1, 2})
+      if (hull_.number(v[i]) < hull_.number(v[first])) first = i;
+    return {v[first], v[next_edge(first)], v[previous_edge(first)]};
+  }
+  Listed<Int> listed(HullFace t) const {
+    const auto [a, b, c] = corners(t);
+    return {static_cast<Int>(hull_.number(a)), static_cast<Int>(hull_.number(b)),
+            static_cast<Int>(hull_.number(c))};
+  }
+  std::vector<HullNode> nodes_above(const HullNode (&v)[3], std::size_t most) const;
 
   PatchNumber id_;
   const Partition* partition_;
   PatchNodes nodes_;
   PatchHull<Int> hull_;
-  PatchLists<Int> lists_;
+  std::vector<Entry> entries_;
+  std::vector<std::size_t> counts_;
   std::size_t listed_ = 0;  ///< known() when the lists were made
   Hull finished_;
 };
 
+// ---- its nodes --------------------------------------------------------------------------------------
+
 template <class Int>
-template <class Visit>
-void Patch<Int>::for_each_missing_neighbour(const std::vector<std::size_t>& own_from,
-                                            const Visit& visit) const {
+void Patch<Int>::set_up(const std::vector<SentNode>& closing, Workspace& workspace) {
   if (nodes_.own == 0) return;
-  // Often one rank brought all own nodes. It misses nodes of other patches only.
-  for (RankNumber r = 0; r + 1 < own_from.size(); ++r) {
-    if (own_from[r + 1] - own_from[r] != nodes_.own) continue;
-    std::vector<bool> is_told(finished_.node_count);
-    lists_.for_each_face([&](HullFace t) {
-      for (int i = 0; i < 3; ++i) {
-        const HullNode v = hull_.face(t).vertex[i];
-        if (hull_.is_own(v) || is_told[v]) continue;
-        is_told[v] = true;
-        visit(r, v);
-      }
-    });
-    return;
+  const auto is_own = [&](const SentNode& r) { return partition_->owner(hull_.places()(r.point)) == id_; };
+  const SentNode *const margin = nodes_.first + nodes_.own, *const end = nodes_.first + nodes_.count();
+  assert(std::all_of(nodes_.first, margin, is_own) && std::none_of(margin, end, is_own));
+  // The margin is looked up by number: whether a node is in it depends on how distances were rounded.
+  NumberTable<bool> is_in_margin(closing.size());
+  for (const SentNode& r : closing) is_in_margin.insert(r.number, false);
+  for (const SentNode* r = margin; r < end; ++r)
+    if (bool* const found = is_in_margin.find(r->number)) *found = true;
+  std::vector<SentNode> leading;
+  for (const SentNode& r : closing) {
+    const bool is_known = *is_in_margin.find(r.number) || is_own(r);
+    assert(is_known ==
+           std::any_of(nodes_.first, end, [&](const SentNode& known) { return known.number == r.number; }));
+    if (!is_known) leading.push_back(r);
   }
-  constexpr RankOfNode kNoRank = UINT32_MAX;
-  // The rank that brought each own node; by hull node, kNoRank for nodes of other patches.
-  std::vector<RankOfNode> of_own(nodes_.own), bringer(finished_.node_count, kNoRank);
-  for (RankNumber r = 0; r + 1 < own_from.size(); ++r)
-    for (std::size_t i = own_from[r]; i < own_from[r + 1]; ++i) of_own[i] = static_cast<RankOfNode>(r);
-  for (HullNode v = 0; v < hull_.built(); ++v)
-    if (hull_.is_own(v)) bringer[v] = of_own[hull_.index(v)];
-  // The two ranks that were told last of each node: most are missed by one or two, in several faces.
-  std::vector<std::array<RankOfNode, 2>> told(finished_.node_count, {kNoRank, kNoRank});
-  const auto tell = [&](RankOfNode r, HullNode v) {
-    auto& [last, before] = told[v];
-    if (r == kNoRank || r == last || r == before) return;
-    before = std::exchange(last, r);
-    visit(RankNumber{r}, v);
-  };
-  for (HullFace t = 0; t < finished_.face_count; ++t) {
-    const HullNode* const v = hull_.face(t).vertex;
-    const RankOfNode rank[3] = {bringer[v[0]], bringer[v[1]], bringer[v[2]]};
-    if ((rank[0] == rank[1] && rank[1] == rank[2]) || !finished_.front(t)) continue;
-    for (std::uint32_t i = 0; i < 3; ++i) {
-      const std::uint32_t j = next_edge(i);
-      if (rank[i] == rank[j]) continue;
-      tell(rank[i], v[j]);
-      tell(rank[j], v[i]);
+  hull_.set_up(nodes_, leading, workspace);
+}
+
+template <class Int>
+void Patch<Int>::take_in(std::vector<SentNode> nodes) {
+  if (nodes_.own == 0) return;
+  // Each node once: no cell of the curve could tell equal ones apart. Triangles share corners, so many are
+  // in.
+  NumberTable<bool> met(nodes.size());
+  nodes.erase(std::remove_if(nodes.begin(), nodes.end(),
+                             [&](const SentNode& r) {
+                               return hull_.has_taken_in(r.number) || !met.insert(r.number, true).second;
+                             }),
+              nodes.end());
+  constexpr std::size_t kMany = 1000;  // sorting fewer would take longer than the searches
+  if (nodes.size() >= kMany) sort_along_curve(nodes);
+  for (const SentNode& r : nodes) hull_.take_in(r);
+}
+
+// ---- lists ------------------------------------------------------------------------------------------
+
+template <class Int>
+void Patch<Int>::update_lists() {
+  const std::size_t first_new = listed_;
+  listed_ = known();
+  if (first_new == listed_ || partition_->patches() == 1) return;
+  counts_.assign(static_cast<std::size_t>(partition_->patches()), 0);
+  // A face that is new since the last time has a new node.
+  entries_.erase(std::remove_if(entries_.begin(), entries_.end(),
+                                [&](const Entry& e) {
+                                  const auto& v = hull_.face(e.face).vertex;
+                                  return v[0] >= first_new || v[1] >= first_new || v[2] >= first_new;
+                                }),
+                 entries_.end());
+  hull_.for_each_face_at_border(first_new, [&](HullFace t) {
+    if (!hull_.is_front(t)) return;
+    Entry entry{listed(t), t, {kNone, kNone}};
+    for (const HullNode v : corners(t)) {
+      if (hull_.is_own(v)) continue;
+      const PatchNumber owner = partition_->owner(hull_.place(v));
+      entry.other[entry.other[0] != kNone && entry.other[0] != owner] = owner;
     }
+    entries_.push_back(entry);
+  });
+  assert(std::all_of(entries_.begin(), entries_.end(),
+                     [&](const Entry& e) { return e.triangle == listed(e.face); }));
+  assert([&] {
+    std::size_t faces = 0;
+    hull_.for_each_face_at_border(0, [&](HullFace t) { faces += hull_.is_front(t); });
+    return faces == entries_.size();
+  }());
+  for_each_listed([&](PatchNumber q, const Listed<Int>&) { ++counts_[static_cast<std::size_t>(q)]; });
+}
+
+template <class Int>
+std::vector<Question> Patch<Int>::lacking(const std::vector<ListOfOther<Int>>& lists) const {
+  Table<Listed<Int>, std::uint32_t> place(entries_.size());
+  for (std::uint32_t e = 0; e < entries_.size(); ++e) place.insert(entries_[e].triangle, e);
+  std::vector<std::array<bool, 2>> has(entries_.size());  // the other patch has the triangle
+  for (const ListOfOther<Int>& list : lists)
+    for (const Listed<Int>* t = list.first; t < list.first + list.count; ++t)
+      if (const std::uint32_t* const e = place.find(*t)) has[*e][entries_[*e].other[1] == list.from] = true;
+  std::vector<Question> questions;
+  for (std::size_t e = 0; e < entries_.size(); ++e)
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (entries_[e].other[k] == kNone || has[e][k]) continue;
+      const auto [a, b, c] = corners(entries_[e].face);
+      questions.push_back({{hull_.node(a), hull_.node(b), hull_.node(c)}, id_, entries_[e].other[k]});
+    }
+  return questions;
+}
+
+// ---- answers ----------------------------------------------------------------------------------------
+
+/// The `most` highest of the nodes above the triangle of three others; empty only if there are none.
+template <class Int>
+std::vector<HullNode> Patch<Int>::nodes_above(const HullNode (&v)[3], std::size_t most) const {
+  std::vector<HullNode> above;
+  const auto add_those_above = [&](HullNode node, std::size_t faces) {
+    HullCorner corner = hull_.corner(node);
+    do {
+      const HullNode w = hull_.face(face_of(corner)).vertex[next_edge(edge_of(corner))];
+      if (w != v[0] && w != v[1] && w != v[2] && hull_.growing().above(v[0], v[1], v[2], w))
+        above.push_back(w);
+      corner = hull_.counterclockwise(corner);
+    } while (--faces > 0 && corner != hull_.corner(node));
+  };
+  // All nodes lie in the cone that the hull makes at a corner, so one of the neighbours of that corner lies
+  // above if any node does. The corner with the fewest: its ring closes first.
+  HullCorner at[3] = {hull_.corner(v[0]), hull_.corner(v[1]), hull_.corner(v[2])};
+  std::uint32_t least = 0;
+  do {
+    least = least == 2 ? 0 : least + 1;
+    at[least] = hull_.counterclockwise(at[least]);
+  } while (at[least] != hull_.corner(v[least]));
+  bool is_face = false;
+  hull_.for_each_face_at(v[least], [&](HullFace t, std::uint32_t i) {
+    const auto& corner = hull_.face(t).vertex;
+    is_face |=
+        corner[next_edge(i)] == v[next_edge(least)] && corner[previous_edge(i)] == v[previous_edge(least)];
+  });
+  if (is_face) return above;
+  constexpr std::size_t kManyFaces = 512;  // not all at a node with very many neighbours
+  add_those_above(v[least], SIZE_MAX);
+  if (above.empty()) return above;
+  for (std::uint32_t k = 0; k < 3; ++k)
+    if (k != least) add_those_above(v[k], kManyFaces);
+  std::sort(above.begin(), above.end());
+  above.erase(std::unique(above.begin(), above.end()), above.end());
+  if (above.size() > most) {
+    const Point a = hull_.place(v[0]);
+    const Point normal = cross(minus(hull_.place(v[1]), a), minus(hull_.place(v[2]), a));
+    const auto height = [&](HullNode w) { return dot(normal, minus(hull_.place(w), a)); };
+    std::nth_element(above.begin(), above.begin() + static_cast<std::ptrdiff_t>(most), above.end(),
+                     [&](HullNode s, HullNode t) { return height(s) > height(t); });
+    above.resize(most);
   }
+  return above;
+}
+
+template <class Int>
+std::vector<SentNode> Patch<Int>::answer(const Question& question) {
+  assert(nodes_.own > 0);  // among them is a corner
+  if (!hull_.coincident().empty()) return {};
+  // The highest few: they change the asker's triangulation most, and the others may not matter then.
+  constexpr std::size_t kFew = 64;
+  HullNode v[3];
+  for (int i = 0; i < 3; ++i) v[i] = hull_.take_in(question.corner[i]);
+  std::vector<SentNode> nodes;
+  for (const HullNode w : nodes_above(v, kFew)) nodes.push_back(hull_.node(w));
+  return nodes;
 }
 
 }  // namespace pstripack

@@ -1,21 +1,21 @@
 #pragma once
 // The nodes that a patch knows, and their hull.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <unordered_map>
-#include <utility>
 #include <vector>
 
-#include "base/buffer.h"
 #include "base/workspace.h"
+#include "geometry/insertion_order.h"
 #include "mesh/delaunay.h"
 #include "mesh/ring_table.h"
 #include "parallel/coincidence.h"
 #include "parallel/local_numbers.h"
+#include "parallel/number_table.h"
 #include "parallel/places.h"
-#include "parallel/record.h"
+#include "parallel/sent_node.h"
 
 namespace pstripack {
 
@@ -24,42 +24,35 @@ namespace pstripack {
 template <class Int>
 class PatchHull {
  public:
-  static constexpr HullNode kNobody = UINT32_MAX;
-
   explicit PatchHull(const Places& places) : places_(places) {}
 
   /// Memory for set_up() with `nodes` nodes, the leading ones included.
-  static std::size_t workspace_bytes(std::size_t nodes);
+  static std::size_t workspace_bytes(std::size_t nodes) {
+    return nodes * sizeof(PatchNode) + bytes_of_arrays(capacity_for(nodes)) + Workspace::kSlack;
+  }
   /// Sorts the nodes; `leading` are others, which come first. The workspace must outlive the hull and its
   /// rings, `nodes` only this call. Throws HiddenNode if a quick test finds one, std::bad_alloc.
-  void set_up(const PatchNodes& nodes, const std::vector<Record>& leading, Workspace& workspace);
+  void set_up(const PatchNodes& nodes, const std::vector<SentNode>& leading, Workspace& workspace);
   /// Makes their hull. Throws HiddenNode, std::bad_alloc.
   void build();
   /// Adds a node of another patch, unless it was added before. Returns its hull node, or the one with which
   /// it coincides. Throws HiddenNode, std::bad_alloc.
-  HullNode take_in(const Record& node);
-  /// The node of that number if it was taken in, or kNobody.
-  HullNode find(GlobalNumber number) const {
-    const auto found = taken_in_.find(number);
-    return found != taken_in_.end() ? found->second : kNobody;
-  }
+  HullNode take_in(const SentNode& node);
+  /// True if the node of that number was taken in.
+  bool has_taken_in(GlobalNumber number) const { return taken_in_.find(number) != nullptr; }
 
   const Places& places() const { return places_; }
   const GrowingHull& growing() const { return *growing_; }
   const Face& face(HullFace t) const { return arrays_.faces[t]; }
-  const Plane& plane(HullFace t) const { return arrays_.planes[t]; }
   /// The numbers of different nodes in the same direction, as far as the hull has found them.
   const CoincidentPairs& coincident() const { return coincident_; }
 
   /// Hull nodes without those taken in.
   std::size_t built() const { return built_; }
-  /// Which of the nodes of set_up() node v < built() is; >= their count if it is a leading one.
-  PatchNode index(HullNode v) const { return order_[v]; }
   bool is_own(HullNode v) const { return v < built_ && order_[v] < own_; }
-  const Point& point(HullNode v) const { return arrays_.nodes[v]; }
   Point place(HullNode v) const { return places_(arrays_.nodes[v]); }
   GlobalNumber number(HullNode v) const { return GlobalNumber{number_[v]}; }
-  Record node(HullNode v) const { return {arrays_.nodes[v], number(v)}; }
+  SentNode node(HullNode v) const { return {arrays_.nodes[v], number(v)}; }
 
   /// A corner of a face at node v.
   HullCorner corner(HullNode v) const { return arrays_.corner[v]; }
@@ -132,24 +125,100 @@ class PatchHull {
   }
 
  private:
+  /// Leaves room for nodes that are taken in later. If they are more, make_room() takes memory anew.
+  static std::size_t capacity_for(std::size_t nodes) { return nodes + nodes / 16 + 256; }
+  static std::size_t bytes_of_arrays(std::size_t capacity) {
+    return capacity *
+           (sizeof(Point) + sizeof(Int) + 2 * sizeof(Face) + sizeof(HullCorner) + 2 * sizeof(Plane));
+  }
+  void lay_out(Workspace& workspace, std::size_t capacity) {
+    arrays_.capacity = capacity;
+    arrays_.nodes = workspace.for_call<Point>(capacity);
+    number_ = workspace.for_call<Int>(capacity);
+    arrays_.faces = workspace.for_call<Face>(2 * capacity);
+    arrays_.corner = workspace.for_call<HullCorner>(capacity);
+    arrays_.planes = workspace.for_phase<Plane>(2 * capacity);
+  }
   void make_room();
 
   Places places_;
   std::size_t own_ = 0, leading_ = 0, built_ = 0;
-  PatchNode* order_ = nullptr;  ///< see index()
-  Int* number_ = nullptr;       ///< of each hull node
+  /// Which of the nodes of set_up() each hull node < built_ is; >= their count if it is a leading one.
+  PatchNode* order_ = nullptr;
+  Int* number_ = nullptr;  ///< of each hull node
   HullArrays arrays_;
   std::unique_ptr<GrowingHull> growing_;
   Plane* first_planes_ = nullptr;  ///< those in the workspace, for built_ nodes at least
   CoincidentPairs coincident_;
-  std::unordered_map<GlobalNumber, HullNode> taken_in_;  ///< see find()
-  struct {  // where the workspace was too small for what was taken in
-    Buffer<Point> nodes;
-    Buffer<Int> number;
-    Buffer<Face> faces;
-    Buffer<Plane> planes;
-    Buffer<HullCorner> corner;
-  } memory_;
+  NumberTable<HullNode> taken_in_;
+  std::unique_ptr<Workspace> more_memory_;  ///< where that of set_up() was too small for what was taken in
 };
+
+template <class Int>
+void PatchHull<Int>::set_up(const PatchNodes& nodes, const std::vector<SentNode>& leading,
+                            Workspace& workspace) {
+  own_ = nodes.own;
+  const std::size_t first = leading.size();
+  built_ = nodes.count() + first;
+  order_ = workspace.for_call<PatchNode>(built_);
+  leading_ = first +
+             insertion_order(&nodes.first->point, nodes.count(), order_ + first, workspace, sizeof(SentNode));
+  workspace.next_phase();
+  lay_out(workspace, capacity_for(built_));
+  const auto set = [&](std::size_t v, const SentNode& r) {
+    arrays_.nodes[v] = r.point;
+    number_[v] = static_cast<Int>(r.number);
+  };
+  for (std::size_t v = 0; v < first; ++v) {
+    order_[v] = static_cast<PatchNode>(nodes.count() + v);
+    set(v, leading[v]);
+  }
+  constexpr std::size_t kAhead = 16;
+  for (std::size_t v = first; v < built_; ++v) {
+    if (v + kAhead < built_) __builtin_prefetch(nodes.first + order_[v + kAhead]);
+    set(v, nodes.first[order_[v]]);
+  }
+  first_planes_ = arrays_.planes;
+  growing_ = GrowingHull::make(arrays_, built_, places_.lengths());
+  growing_->look_for_hidden_nodes(leading_);
+}
+
+template <class Int>
+void PatchHull<Int>::build() {
+  growing_->build(leading_);
+  for (const auto& [in, out] : growing_->coincident())
+    if (number(in) != number(out)) coincident_.emplace_back(number(in), number(out));
+}
+
+template <class Int>
+void PatchHull<Int>::make_room() {
+  const std::size_t n = growing_->node_count(), faces = growing_->face_count();
+  if (n < arrays_.capacity) return;
+  auto memory = std::make_unique<Workspace>(bytes_of_arrays(2 * arrays_.capacity));
+  const HullArrays before = arrays_;
+  const Int* const number_before = number_;
+  lay_out(*memory, 2 * before.capacity);
+  std::copy_n(before.nodes, n, arrays_.nodes);
+  std::copy_n(number_before, n, number_);
+  std::copy_n(before.faces, faces, arrays_.faces);
+  std::copy_n(before.planes, faces, arrays_.planes);
+  std::copy_n(before.corner, n, arrays_.corner);
+  growing_->move_to(arrays_);
+  more_memory_ = std::move(memory);
+}
+
+template <class Int>
+HullNode PatchHull<Int>::take_in(const SentNode& node) {
+  if (const HullNode* const taken = taken_in_.find(node.number)) return *taken;
+  make_room();
+  const std::size_t before = growing_->node_count();
+  const HullNode v = growing_->add(node.point);
+  if (v == before)
+    number_[v] = static_cast<Int>(node.number);
+  else if (number(v) != node.number)
+    coincident_.emplace_back(number(v), node.number);
+  taken_in_.insert(node.number, v);
+  return v;
+}
 
 }  // namespace pstripack

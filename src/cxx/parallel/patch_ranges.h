@@ -18,7 +18,7 @@ class PatchRanges {
   }
 
   int count() const { return first_.back(); }
-  std::size_t ranks() const { return first_.size() - 1; }
+  std::size_t ranks() const { return first_.empty() ? 0 : first_.size() - 1; }
   PatchNumber first(RankNumber rank) const { return first_[rank]; }
   PatchNumber end(RankNumber rank) const { return first_[rank + 1]; }
   std::size_t count(RankNumber rank) const { return static_cast<std::size_t>(end(rank) - first(rank)); }

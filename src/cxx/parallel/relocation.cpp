@@ -47,7 +47,7 @@ Relocation::Relocation(const std::int64_t* before, const NodeRanges& last, const
   for (std::size_t i = 0; i < nodes.count; ++i) {
     if (from_[i] != kNotHere) continue;
     are_positive_ = are_positive_ && value_of(nodes.number(i)) > 0;
-    const LastNode* const k = others.find_value(nodes.number(i));
+    const LastNode* const k = others.find(nodes.number(i));
     if (are_positive_ && k != nullptr && to_[*k] == kGone)
       are_the_same(*k, i);
     else
@@ -114,7 +114,7 @@ bool Relocation::find_addresses(const LocalNodes& nodes, Communicator& ranks) {
         for (RankNumber r = 0; r < size; ++r)
           for (const Said& said : Items<Said>(told, r)) {
             if (said.now != kNoNumber) continue;
-            const GlobalNumber* const at = come.find_value(said.number);
+            const GlobalNumber* const at = come.find(said.number);
             are_the_same.value = are_the_same.value && at != nullptr;
             now[r].push_back(at != nullptr ? *at : kNoNumber);
           }
@@ -138,7 +138,7 @@ GlobalNumber Relocation::now(LastNode k) const {
 
 GlobalNumber Relocation::now(GlobalNumber counted) const {
   if (last_.is_of(me_, counted)) return now(static_cast<LastNode>(value_of(counted) - last_.first(me_)));
-  const GlobalNumber* const found = outside_now_->find_value(counted);
+  const GlobalNumber* const found = outside_now_.find(counted);
   return found != nullptr ? *found : kNoNumber;
 }
 
@@ -147,41 +147,34 @@ Stars<Int> Relocation::stars(const Stars<Int>& last, const LocalNodes& nodes, Co
   std::vector<NodeAddress> asked;
   in_agreement(ranks, [&] {
     asked = addresses_of(last.outside, last_);
-    outside_now_.emplace(last.outside.size());
+    outside_now_ = NumberTable<GlobalNumber>(last.outside.size());
   });
   Halo(asked, ranks)
       .fetch<GlobalNumber>(
           ranks, [&](LocalNode k) { return now(LastNode{k}); },
           [&](OutsideNode j, GlobalNumber now) {
-            outside_now_->insert(last.outside[index_of(j)].counted, now);
+            outside_now_.insert(last.outside[index_of(j)].counted, now);
           });
   const auto renamed = [&](Int entry) {
     const auto number = static_cast<Int>(now(named_by(entry)));
     return entry < 0 ? -number : number;
   };
   const Parcels arrived = exchange_in_agreement(ranks, [&] {
-    return packed_rings<Int>(
-        static_cast<std::size_t>(ranks.size()),
-        [&](const auto& visit) {
-          for (const Gone& g : gone_)
-            visit(now_.address(g.now).rank, static_cast<Int>(value_of(g.now)), last.of_node[g.node]);
-        },
-        renamed);
+    return packed_rings<Int>(static_cast<std::size_t>(ranks.size()), [&](const auto& visit) {
+      for (const Gone& g : gone_) {
+        const Ring<Int> ring = last.of_node[g.node];
+        visit(now_.address(g.now).rank, value_of(g.now), ring.count,
+              [&](Int* to) { std::transform(ring.begin, ring.begin + ring.count, to, renamed); });
+      }
+    });
   });
   Stars<Int> stars;
   in_agreement(ranks, [&] {
-    // What was outside, what has gone, and what the arrived stars name: of that what is not here.
-    std::vector<GlobalNumber> named;
-    for (const HaloNode& node : last.outside) named.push_back(now(node.counted));
-    for (const Gone& g : gone_) named.push_back(g.now);
     std::vector<Ring<Int>> come(come_);
     for_each_ring<Int>(arrived, [&](Int number, const Ring<Int>& ring) {
-      for (std::uint32_t k = 0; k < ring.count; ++k) named.push_back(named_by(ring.begin[k]));
       come[from_[now_.address(GlobalNumber{number}).node] - had_] = ring;
     });
-    std::sort(named.begin(), named.end());
-    named.erase(std::unique(named.begin(), named.end()), named.end());
-
+    NamedOutside<Int> outside(GlobalNumber{now_.first(me_)}, nodes.count);
     constexpr std::size_t kAhead = 16;
     stars = copied_stars<Int>(
         nodes.count,
@@ -189,11 +182,14 @@ Stars<Int> Relocation::stars(const Stars<Int>& last, const LocalNodes& nodes, Co
           if (i + kAhead < nodes.count && !has_come(i + kAhead)) last.of_node.prefetch(from_[i + kAhead]);
           return has_come(i) ? come[from_[i] - had_] : last.of_node[from_[i]];
         },
-        [&](std::size_t i, Int entry) { return has_come(i) ? entry : renamed(entry); });
-    for (const GlobalNumber number : named)
-      if (!now_.is_of(me_, number)) stars.outside.push_back({{}, number, kNoNumber});
+        [&](std::size_t i, Int entry) {
+          const Int now = has_come(i) ? entry : renamed(entry);
+          outside.add(now);
+          return now;
+        });
+    stars.outside = outside.nodes();
   });
-  fetch_numbers(stars.outside, nodes, now_, ranks);
+  fetch_halo(stars.outside, nodes, now_, ranks);
   return stars;
 }
 

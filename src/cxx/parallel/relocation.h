@@ -41,7 +41,7 @@ class Relocation {
   SampleOfStars sample(const SampleOfStars& last) const { return last.renumbered(to_.data()); }
 
   /// The last call's stars, on the ranks that bring their nodes now, with the addresses that nodes have now.
-  /// `outside` has no places, and perhaps some nodes that no star names. Collective. Throws AgreedFailure.
+  /// Collective. Throws AgreedFailure.
   template <class Int>
   Stars<Int> stars(const Stars<Int>& last, const LocalNodes& nodes, Communicator& ranks);
   /// After that: what a number counted in the last call is now; kNoNumber if this rank did not know its node.
@@ -66,12 +66,12 @@ class Relocation {
   NodeRanges last_, now_;
   RankNumber me_;
   std::size_t had_;
-  bool are_positive_ = true;   ///< the numbers of nodes that were not here
-  BlockArray<LastNode> from_;  ///< by LocalNode; had_, had_ + 1, ... if it was not here
-  BlockArray<LocalNode> to_;   ///< by LastNode; kGone if another rank brings it
-  std::size_t come_ = 0;       ///< nodes that were not here
-  std::vector<Gone> gone_;     ///< by node
-  std::optional<NumberTable<GlobalNumber>> outside_now_;  ///< of what was outside, by its counted number
+  bool are_positive_ = true;               ///< the numbers of nodes that were not here
+  BlockArray<LastNode> from_;              ///< by LocalNode; had_, had_ + 1, ... if it was not here
+  BlockArray<LocalNode> to_;               ///< by LastNode; kGone if another rank brings it
+  std::size_t come_ = 0;                   ///< nodes that were not here
+  std::vector<Gone> gone_;                 ///< by node
+  NumberTable<GlobalNumber> outside_now_;  ///< of what was outside, by its counted number
 };
 
 }  // namespace pstripack

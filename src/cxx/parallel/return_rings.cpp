@@ -3,91 +3,104 @@
 #include <algorithm>
 #include <cassert>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 namespace pstripack {
 namespace {
 
-/// The table of ReturnAddresses: where each ring is, and its size.
-template <class Int>
-struct Table {
-  std::unique_ptr<Workspace> memory;
-  const Int** place = nullptr;
-  std::uint8_t* size_class = nullptr;
-
-  void make_room(std::size_t rings) {
-    memory = std::make_unique<Workspace>(rings * (sizeof *place + sizeof *size_class));
-    place = memory->template for_call<const Int*>(rings);
-    size_class = memory->template for_call<std::uint8_t>(rings);
+/// Sums over stars.
+struct StarSums {
+  std::int64_t nodes = 0, neighbours = 0, boundary = 0;  ///< boundary: nodes at the boundary
+  /// Euler's formula. V nodes, F triangles and B boundary arcs of a sphere (B = 0) or a disc have
+  /// V - (F + B)/2 = 2 or 1. A star has as many triangles as neighbours; at the boundary, one less.
+  bool are_of_sphere_or_disc() const {
+    return 6 * nodes - neighbours - 2 * boundary == (boundary > 0 ? 6 : 12);
   }
 };
 
-/// Writes the rings of the own nodes of all patches here: into the memory of the hulls or, if `apart`, into
-/// memory of their own, which is returned. Then the stars can stay when the hulls are freed.
+/// Writes the rings of the own nodes of all patches here: into the memory of the hulls or, if `outside` is
+/// given, into memory of their own. Then the stars can stay when the hulls are freed. `outside`: what the
+/// rings of this rank's nodes name is added.
 template <class Int>
-std::unique_ptr<Workspace> write_rings(Patches<Int>& patches, const ReturnAddresses& addresses, bool apart,
-                                       int threads, Table<Int>& table, std::vector<Buffer<Int>>& more_memory,
-                                       StarSums& sums) {
-  std::vector<std::size_t> begin{0};
-  for (const Patch<Int>& patch : patches.of_rank)
-    begin.push_back(begin.back() + patch.entries() + 2 * kBlock);
-  std::unique_ptr<Workspace> memory;
-  Int* room = nullptr;
-  if (apart) {
-    memory = std::make_unique<Workspace>(begin.back() * sizeof(Int));
-    room = memory->template for_call<Int>(begin.back());
-  }
-  more_memory.resize(patches.of_rank.size());
-  std::vector<StarSums> of_patch(patches.of_rank.size());
+StarSums write_rings(Patches<Int>& patches, const RingAddresses& addresses, RankNumber me, int threads,
+                     Stars<Int>& stars, NamedOutside<Int>* outside) {
+  struct Part {
+    Block memory;
+    StarSums sums;
+    std::optional<NamedOutside<Int>> outside;
+  };
+  std::vector<Part> parts(patches.of_rank.size());
   patches.for_each(threads, [&](Patch<Int>& patch, PatchHere k) {
-    const std::size_t entries = begin[k + 1] - begin[k];
-    Int* out =
-        room != nullptr ? room + begin[k] : static_cast<Int*>(patch.room_for_rings(entries * sizeof(Int)));
+    Part& part = parts[k];
+    const std::size_t bytes = (patch.entries() + 2 * kBlock) * sizeof(Int);
+    auto* out = outside != nullptr ? nullptr : static_cast<Int*>(patch.room_for_rings(bytes));
     if (out == nullptr) {
-      more_memory[k] = Buffer<Int>(entries);
-      out = more_memory[k].data();
+      part.memory = Block(bytes);
+      out = reinterpret_cast<Int*>(part.memory.data());
     }
-    // By value, as in Patch::write_rings.
-    const Int** const place = table.place + addresses.own_begin[k];
-    std::uint8_t* const size_class = table.size_class + addresses.own_begin[k];
-    of_patch[k] = patch.write_rings(
-        out,
-        [=](std::size_t i, const Int* ring, std::uint32_t n) {
-          place[i] = ring;
-          size_class[i] = RingTable<Int>::size_class_of(n);
-        },
-        [=](std::size_t i) { __builtin_prefetch(place + i, 1); });
+    // By value, as in PatchHull::write_rings.
+    const auto entries = stars.of_node.entries();
+    const std::size_t begin = addresses.begin[static_cast<std::size_t>(patch.id())],
+                      first = addresses.own_from[k][me], count = addresses.own_from[k][me + 1] - first;
+    const auto soon = [=](std::size_t i) { __builtin_prefetch(entries.place + begin + i, 1); };
+    const auto set = [=](std::size_t i, const Int* ring, std::uint32_t n) {
+      entries.set(begin + i, ring, n);
+    };
+    const Int* end;
+    if (outside == nullptr) {
+      end = patch.write_rings(out, set, soon);
+    } else {
+      NamedOutside<Int>* const names = &part.outside.emplace(*outside);
+      end = patch.write_rings(
+          out,
+          [=](std::size_t i, const Int* ring, std::uint32_t n) {
+            set(i, ring, n);
+            if (i - first < count) names->add_ring(ring);
+          },
+          soon);
+    }
+    const auto own = static_cast<std::int64_t>(patch.own());
+    part.sums = {own, end - out - own, patch.boundary_nodes()};
   });
-  for (const StarSums& patch : of_patch) sums += patch;
-  return memory;
+  StarSums sum;
+  for (Part& part : parts) {
+    sum.nodes += part.sums.nodes;
+    sum.neighbours += part.sums.neighbours;
+    sum.boundary += part.sums.boundary;
+    if (outside != nullptr) outside->add(*part.outside);
+    stars.memory.push_back(std::move(part.memory));
+  }
+  return sum;
 }
 
 /// For each rank the rings of the nodes that it brought, patch by patch.
 template <class Int>
-Parcels rings_for_others(const Table<Int>& table, const ReturnAddresses& addresses, std::size_t size,
+Parcels rings_for_others(RingTable<Int>& table, const RingAddresses& addresses, const PatchRanges& patches,
                          RankNumber me) {
+  const auto rings = table.entries();
   const auto for_each_run_of = [&](RankNumber r, const auto& visit) {
-    for (PatchHere k = 0; k < addresses.own_from.size() && r != me; ++k)
-      visit(addresses.own_begin[k] + addresses.own_from[k][r],
-            addresses.own_begin[k] + addresses.own_from[k][r + 1]);
+    for (PatchHere k = 0; k < addresses.own_from.size() && r != me; ++k) {
+      const std::size_t begin = addresses.begin[static_cast<std::size_t>(patches.first(me)) + k];
+      visit(begin + addresses.own_from[k][r], begin + addresses.own_from[k][r + 1]);
+    }
   };
-  ParcelWriter writer(size);
-  for (RankNumber r = 0; r < size; ++r)
+  ParcelWriter writer(patches.ranks());
+  for (RankNumber r = 0; r < patches.ranks(); ++r)
     for_each_run_of(r, [&](std::size_t first, std::size_t last) {
       std::size_t entries = 0;
-      for (std::size_t i = first; i < last; ++i)
-        entries += 1 + RingTable<Int>::count_of(table.place[i], table.size_class[i]);
+      for (std::size_t i = first; i < last; ++i) entries += 1 + rings.count(i);
       writer.expect<Int>(r, entries);
     });
   writer.make_room(kBlock * sizeof(Int));  // see copy_ring
   if (writer.empty()) return writer.finish();
-  for (RankNumber r = 0; r < size; ++r) {
+  for (RankNumber r = 0; r < patches.ranks(); ++r) {
     auto* at = writer.room<Int>(r, 0);
     for_each_run_of(r, [&](std::size_t first, std::size_t last) {
       constexpr std::size_t kAhead = 16;  // they lie in the order of the hulls
       for (std::size_t i = first; i < last; ++i) {
-        if (i + kAhead < last) __builtin_prefetch(table.place[i + kAhead]);
-        at = copy_ring(table.place[i], at);
+        if (i + kAhead < last) __builtin_prefetch(rings.place[i + kAhead]);
+        at = copy_ring(rings.place[i], at);
       }
     });
   }
@@ -96,57 +109,20 @@ Parcels rings_for_others(const Table<Int>& table, const ReturnAddresses& address
 
 /// Enters the received rings in the table: those of this rank's nodes in patches of other ranks.
 template <class Int>
-void enter_received(const Parcels& received, const ReturnAddresses& addresses, const PatchRanges& patches,
-                    RankNumber me, Table<Int>& table) {
-  for (RankNumber r = 0; r + 1 < received.begin.size(); ++r) {
+void enter_received(const Parcels& received, const RingAddresses& addresses, const PatchRanges& patches,
+                    RankNumber me, RingTable<Int>& table, NamedOutside<Int>* outside) {
+  for (RankNumber r = 0; r < patches.ranks(); ++r) {
     if (r == me) continue;
     const Int* at = Items<Int>(received, r).begin();
-    for (std::size_t k = addresses.away_begin[static_cast<std::size_t>(patches.first(r))];
-         k < addresses.away_begin[static_cast<std::size_t>(patches.end(r))]; ++k) {
-      table.place[k] = at;
-      table.size_class[k] = RingTable<Int>::size_class_of(static_cast<std::uint32_t>(*at));
-      at += 1 + *at;
+    for (std::size_t k = addresses.begin[static_cast<std::size_t>(patches.first(r))];
+         k < addresses.begin[static_cast<std::size_t>(patches.end(r))]; ++k) {
+      table.entries().set(k, at);
+      const Int* const end = at + 1 + *at;
+      if (outside != nullptr) std::for_each(at + 1, end, [=](Int entry) { outside->add(entry); });
+      at = end;
     }
     assert(at == Items<Int>(received, r).end());
   }
-}
-
-/// The neighbours of this rank's nodes that it did not bring itself.
-template <class Int>
-std::vector<HaloNode> find_outside(const Patches<Int>& patches, const ReturnAddresses& addresses,
-                                   const LocalNodes& nodes, Communicator& ranks) {
-  const auto size = static_cast<std::size_t>(ranks.size());
-  const Parcels incoming = exchange_in_agreement(ranks, [&] {
-    struct Missing {
-      RankOfNode rank;
-      HullNode node;
-    };
-    std::vector<std::vector<Missing>> of_patch(patches.of_rank.size());
-    ParcelWriter writer(size);
-    for (PatchHere k = 0; k < of_patch.size(); ++k)
-      patches.of_rank[k].for_each_missing_neighbour(addresses.own_from[k], [&](RankNumber r, HullNode v) {
-        of_patch[k].push_back({static_cast<RankOfNode>(r), v});
-        writer.expect<Record>(r);
-      });
-    writer.make_room();
-    for (PatchHere k = 0; k < of_patch.size(); ++k)
-      for (const Missing& m : of_patch[k]) writer.put(m.rank, patches.of_rank[k].node(m.node));
-    return writer.finish();
-  });
-  std::vector<HaloNode> outside;
-  in_agreement(ranks, [&] {
-    // A patch does not know which nodes this rank brought for other patches.
-    const auto is_here = [&](const Record& r) {
-      return r.number >= nodes.number(0) && r.number < nodes.number(nodes.count);
-    };
-    const Items<Record> items(incoming);
-    std::vector<Record> all;
-    std::remove_copy_if(items.begin(), items.end(), std::back_inserter(all), is_here);
-    keep_one_of_each(all);
-    outside.reserve(all.size());
-    for (const Record& r : all) outside.push_back({r.point, r.number, r.number});
-  });
-  return outside;
 }
 
 /// A test of the program: patches that agree have the stars of all nodes, whose surface is a sphere or a
@@ -165,34 +141,37 @@ void check_euler(StarSums sums, const Division& division, Communicator& ranks) {
 }  // namespace
 
 template <class Int>
-Stars<Int> return_rings(Patches<Int> patches, ReturnAddresses addresses, const LocalNodes& nodes,
+Stars<Int> return_rings(Patches<Int> patches, RingAddresses addresses, const LocalNodes& nodes,
                         const Division& division, Communicator& ranks, const ParallelOptions& options) {
   const auto me = static_cast<RankNumber>(ranks.rank());
   Stars<Int> stars;
-  stars.lengths = division.places.lengths();
-  Table<Int> table;
-  std::unique_ptr<Workspace> entries;
   StarSums sums;
-  stars.received = exchange_in_agreement(ranks, [&] {
-    stars.memory.reserve(3);  // what is moved there below must not fail
-    table.make_room(addresses.own_begin.back());
-    entries = write_rings(patches, addresses, options.with_neighbours, options.threads, table,
-                          stars.more_memory, sums);
-    return rings_for_others(table, addresses, static_cast<std::size_t>(ranks.size()), me);
+  NamedOutside<Int> named(nodes.number(0), nodes.count);
+  NamedOutside<Int>* const outside = options.with_neighbours ? &named : nullptr;
+  Parcels received = exchange_in_agreement(ranks, [&] {
+    stars.memory.reserve(patches.of_rank.size() + 2);  // what is moved there below must not fail
+    stars.of_node = RingTable<Int>(std::move(addresses.position), addresses.begin.back());
+    sums = write_rings(patches, addresses, me, options.threads, stars, outside);
+    return rings_for_others(stars.of_node, addresses, division.patches, me);
   });
   check_euler(sums, division, ranks);
-  enter_received(stars.received, addresses, division.patches, me, table);
-  stars.of_node = RingTable<Int>(nodes.count, addresses.position, table.place, table.size_class);
-  if (options.with_neighbours) stars.outside = find_outside(patches, addresses, nodes, ranks);
-  stars.memory.push_back(std::move(addresses.memory));
-  stars.memory.push_back(std::move(table.memory));
-  stars.memory.push_back(std::move(options.with_neighbours ? entries : patches.memory));
+  const auto enter = [&] {
+    enter_received(received, addresses, division.patches, me, stars.of_node, outside);
+    if (outside != nullptr) stars.outside = outside->nodes();
+  };
+  if (outside == nullptr) {
+    enter();
+    stars.memory.push_back(std::move(patches.memory));
+  } else {
+    in_agreement(ranks, enter);
+  }
+  stars.memory.push_back(std::move(received.bytes));
   return stars;
 }
 
-template Stars<std::int32_t> return_rings(Patches<std::int32_t>, ReturnAddresses, const LocalNodes&,
+template Stars<std::int32_t> return_rings(Patches<std::int32_t>, RingAddresses, const LocalNodes&,
                                           const Division&, Communicator&, const ParallelOptions&);
-template Stars<std::int64_t> return_rings(Patches<std::int64_t>, ReturnAddresses, const LocalNodes&,
+template Stars<std::int64_t> return_rings(Patches<std::int64_t>, RingAddresses, const LocalNodes&,
                                           const Division&, Communicator&, const ParallelOptions&);
 
 }  // namespace pstripack

@@ -1,12 +1,12 @@
 #pragma once
 // The last phase: the stars of the nodes go back to the ranks that brought them.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
-#include "base/buffer.h"
 #include "base/workspace.h"
 #include "mesh/ring_table.h"
 #include "parallel/coincidence.h"
@@ -25,20 +25,55 @@ struct Stars {
   /// interior node from the smallest on; of a boundary node from the first boundary neighbour to the last,
   /// negated. Empty if nodes coincide.
   RingTable<Int> of_node;
-  /// The memory of of_node and of the rings.
-  std::vector<std::unique_ptr<Workspace>> memory;
-  std::vector<Buffer<Int>> more_memory;
-  Parcels received;
-  Lengths lengths = Lengths::as_given;
+  std::vector<Block> memory;   ///< of the rings
   CoincidentPairs coincident;  ///< on every rank the same; empty if there are none
-  /// With options.with_neighbours: the nodes that the stars name and this rank did not bring, by number.
+  /// With options.with_neighbours: the nodes that the stars name and this rank did not bring, by number; see
+  /// fetch_halo().
   std::vector<HaloNode> outside;
   std::unique_ptr<Homes> homes;
 };
 
 /// `addresses`: of these nodes. Collective. Throws AgreedFailure or HiddenNode.
 template <class Int>
-Stars<Int> return_rings(Patches<Int> patches, ReturnAddresses addresses, const LocalNodes& nodes,
+Stars<Int> return_rings(Patches<Int> patches, RingAddresses addresses, const LocalNodes& nodes,
                         const Division& division, Communicator& ranks, const ParallelOptions& options);
+
+/// Collects the nodes that rings name and this rank does not bring. Numbers are counted through all ranks;
+/// this rank brings `count` nodes from `first` on.
+template <class Int>
+class NamedOutside {
+ public:
+  NamedOutside(GlobalNumber first, std::size_t count) : first_(value_of(first)), count_(count) {}
+
+  void add(Int entry) {
+    if (is_outside(entry)) named_.push_back(named_by(entry));
+  }
+  /// All entries of a stored ring. Reads up to kBlock entries beyond it.
+  void add_ring(const Int* place) {
+    const auto count = static_cast<std::size_t>(*place++);
+    bool any = count > kBlock;
+    for (std::size_t k = 0; k < kBlock; ++k) any |= (k < count) & is_outside(place[k]);
+    if (any) std::for_each(place, place + count, [this](Int entry) { add(entry); });
+  }
+  void add(const NamedOutside& other) {
+    named_.insert(named_.end(), other.named_.begin(), other.named_.end());
+  }
+  /// By number, without points. Throws std::bad_alloc, as all other members do.
+  std::vector<HaloNode> nodes() {
+    std::sort(named_.begin(), named_.end());
+    named_.erase(std::unique(named_.begin(), named_.end()), named_.end());
+    std::vector<HaloNode> nodes;
+    for (const GlobalNumber number : named_) nodes.push_back({{}, number, kNoNumber});
+    return nodes;
+  }
+
+ private:
+  bool is_outside(Int entry) const {
+    return static_cast<std::uint64_t>(value_of(named_by(entry)) - first_) >= count_;
+  }
+  std::int64_t first_;
+  std::size_t count_;
+  std::vector<GlobalNumber> named_;
+};
 
 }  // namespace pstripack

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <utility>
 
 #include "parallel/parcels.h"
@@ -12,25 +11,21 @@
 
 namespace pstripack {
 
-/// Packs rings, each as the number of its node, its count and its entries, changed by entry(e).
-/// for_each(visit) calls visit(rank, number, ring) for every ring.
-template <class Int, class ForEach, class Entry>
-Parcels packed_rings(std::size_t ranks, const ForEach& for_each, const Entry& entry) {
-  ParcelWriter writer(ranks);
-  for_each(
-      [&](RankNumber r, Int, const Ring<Int>& ring) { writer.expect<Int>(r, 2 + std::size_t{ring.count}); });
-  writer.make_room();
-  for_each([&](RankNumber r, Int number, const Ring<Int>& ring) {
-    Int* const to = writer.room<Int>(r, 2 + std::size_t{ring.count});
-    to[0] = number;
-    to[1] = static_cast<Int>(ring.count);
-    std::transform(ring.begin, ring.begin + ring.count, to + 2, entry);
-  });
-  return writer.finish();
-}
+/// Packs rings, each as the number of its node, its count and its entries. for_each(visit) calls
+/// visit(rank, number, count, write) for every ring; write(to) writes its entries.
 template <class Int, class ForEach>
 Parcels packed_rings(std::size_t ranks, const ForEach& for_each) {
-  return packed_rings<Int>(ranks, for_each, [](Int e) { return e; });
+  ParcelWriter writer(ranks);
+  for_each(
+      [&](RankNumber r, std::int64_t, std::size_t count, const auto&) { writer.expect<Int>(r, 2 + count); });
+  writer.make_room();
+  for_each([&](RankNumber r, std::int64_t number, std::size_t count, const auto& write) {
+    Int* const to = writer.room<Int>(r, 2 + count);
+    to[0] = static_cast<Int>(number);
+    to[1] = static_cast<Int>(count);
+    write(to + 2);
+  });
+  return writer.finish();
 }
 
 /// Calls visit(number, ring) for each packed ring.
@@ -46,28 +41,16 @@ Stars<Int> copied_stars(std::size_t n, const GetRing& ring, const Entry& entry) 
   Stars<Int> stars;
   std::size_t entries = 0;
   for (std::size_t i = 0; i < n; ++i) entries += 1 + ring(i).count;
-  auto memory = std::make_unique<Workspace>(n * (sizeof(std::uint32_t) + sizeof(Int*) + 1));
-  auto* const position = memory->for_call<std::uint32_t>(n);
-  auto** const place = memory->for_call<const Int*>(n);
-  auto* const size_class = memory->for_call<std::uint8_t>(n);
-  Buffer<Int> rings(entries + kBlock);  // see copy_ring
-  Int* at = rings.data();
+  stars.of_node = RingTable<Int>(n);
+  stars.memory.emplace_back((entries + kBlock) * sizeof(Int));  // see copy_ring
+  Int* at = reinterpret_cast<Int*>(stars.memory[0].data());
   for (std::size_t i = 0; i < n; ++i) {
     const Ring<Int> r = ring(i);
-    position[i] = static_cast<std::uint32_t>(i);
-    place[i] = at;
-    size_class[i] = RingTable<Int>::size_class_of(r.count);
+    stars.of_node.entries().set(i, at, r.count);
     *at++ = static_cast<Int>(r.count);
     at = std::transform(r.begin, r.begin + r.count, at, [&](Int e) { return entry(i, e); });
   }
-  stars.of_node = RingTable<Int>(n, position, place, size_class);
-  stars.memory.push_back(std::move(memory));
-  stars.more_memory.push_back(std::move(rings));
   return stars;
-}
-template <class Int, class GetRing>
-Stars<Int> copied_stars(std::size_t n, const GetRing& ring) {
-  return copied_stars<Int>(n, ring, [](std::size_t, Int e) { return e; });
 }
 
 }  // namespace pstripack

@@ -17,7 +17,7 @@ std::size_t share_of_sample(std::size_t before, std::size_t of_rank, std::size_t
   return wanted * (before + of_rank) / nodes - wanted * before / nodes;
 }
 
-void write_share(const LocalNodes& mine, std::size_t share, Record* sample) {
+void write_share(const LocalNodes& mine, std::size_t share, SentNode* sample) {
   for (std::size_t k = 0; k < share; ++k) {
     const std::size_t begin = mine.count * k / share, end = mine.count * (k + 1) / share;
     const std::size_t i = begin + splitmix64(k + 0x9e3779b97f4a7c15u) % (end - begin);
@@ -43,14 +43,14 @@ Partition partition_over_ranks(PartitionKind kind, int ranks, const std::vector<
     const std::size_t first = slice_begin(n, r, size);
     return LocalNodes{nodes.data() + first, slice_begin(n, r + 1, size) - first};
   };
-  std::vector<Record> sample;
+  std::vector<SentNode> sample;
   for (RankNumber r = 0; r < size; ++r) {
     const std::size_t share = share_of_sample(slice_begin(n, r, size), nodes_of(r).count, wanted, n);
     sample.resize(sample.size() + share);
     write_share(nodes_of(r), share, sample.data() + sample.size() - share);
   }
   std::vector<Point> points;
-  for (const Record& record : sample) points.push_back(record.point);
+  for (const SentNode& record : sample) points.push_back(record.point);
   if (kind != PartitionKind::bisection) return Partition(kind, ranks, points, n);
   std::vector<Point> counted;
   for (RankNumber r = 0; r < size; ++r) {

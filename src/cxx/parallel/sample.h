@@ -8,7 +8,7 @@
 #include "parallel/local_nodes.h"
 #include "parallel/partition.h"
 #include "parallel/places.h"
-#include "parallel/record.h"
+#include "parallel/sent_node.h"
 
 namespace pstripack {
 
@@ -21,7 +21,7 @@ std::size_t sample_size(std::size_t nodes, std::size_t patches);
 std::size_t share_of_sample(std::size_t before, std::size_t of_rank, std::size_t wanted, std::size_t nodes);
 
 /// Cuts this rank's nodes into `share` runs and writes one node of each.
-void write_share(const LocalNodes& mine, std::size_t share, Record* sample);
+void write_share(const LocalNodes& mine, std::size_t share, SentNode* sample);
 
 /// The places of the nodes of this rank that are counted to move the cuts between patches: the same share on
 /// every rank.

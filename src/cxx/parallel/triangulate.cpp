@@ -4,10 +4,10 @@
 //        |  divide               a sample of the nodes, the same on every rank, and counts near the cuts
 //        v                       cut the sphere into patches
 //   Division
-//        |  deliver              every node goes to its patch and to those that have it in their halo
+//        |  deliver              every node goes to its patch and to those that have it in their margin
 //        v
 //   Delivery
-//        |  triangulate_patches  every patch its own nodes, its halo and a few nodes of the sample
+//        |  triangulate_patches  every patch its own nodes, its margin and a few nodes of the sample
 //        v
 //   Patches
 //        |  certify              patches compare lists of the triangles that two of them answer for; what one
@@ -51,7 +51,7 @@ Stars<Int> triangulate_places(const LocalNodes& nodes, const Corners& corners, c
   std::size_t own = 0;
   for (const PatchNodes& patch : delivery.of_patch) {
     own += patch.own;
-    cost.halo += static_cast<std::int64_t>(patch.halo);
+    cost.halo += static_cast<std::int64_t>(patch.margin);
   }
   if (homes != nullptr)
     delivery.outcome.go_on([&] { *homes = std::make_unique<Homes>(division, options, own); });
@@ -64,7 +64,6 @@ Stars<Int> triangulate_places(const LocalNodes& nodes, const Corners& corners, c
   });
   if (!certified.coincident.empty()) {
     Stars<Int> none;
-    none.lengths = places.lengths();
     none.coincident = std::move(certified.coincident);
     return none;
   }

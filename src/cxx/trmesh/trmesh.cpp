@@ -50,7 +50,7 @@ class ByOneHull {
     return first_coincidence(pairs);
   }
 
-  void deliver() {
+  void write() {
     const PhaseTimer timer(cost_, ParallelCost::lists);
     const auto& [list, lptr, lend, lnew] = call_.lists;
     *lnew = write_lists(hull_, list, lptr, lend, workspace_);
@@ -92,7 +92,7 @@ class ByPatches {
     return first_coincidence(stars_.coincident);
   }
 
-  void deliver() {
+  void write() {
     const PhaseTimer timer(cost_, ParallelCost::lists);
     const auto& [list, lptr, lend, lnew] = call_.lists;
     write_piece(stars_.of_node, 0, list, lend, options_.threads);
@@ -117,11 +117,11 @@ TrmeshResult cold_by(const TrmeshCall& call, ParallelCost* cost) {
   if (call.starts_anywhere) {
     if (const auto first = way.triangulate(n))
       return {static_cast<std::int32_t>(first->l), first->l, first->m};
-    way.deliver();
+    way.write();
     return {0};
   }
   if (left(call.nodes[0], call.nodes[1], call.nodes[2]) == 0) return {PSTRIPACK_COLLINEAR};
-  return triangulate_and_deliver(call.n, way);
+  return triangulate_and_write(call.n, way);
 }
 
 TrmeshResult cold(const TrmeshCall& call, CallWay* way, ParallelCost* cost, Engine* pool) {
@@ -187,8 +187,8 @@ TrmeshResult lists_in_original_order(const TrmeshCall& call, ParallelCost* cost)
 /// The way of a call is chosen here, in this order: the ranks of a communicator, the original's order
 /// (`follow`: then this process alone), the mesh of an earlier call, the pool, threads, one hull. But for the
 /// second, all write the same lists.
-TrmeshResult carry_out(const TrmeshCall& call, bool follow, CallWay* way, Engine* communicator,
-                       Engine* pool) {
+TrmeshResult by_best_way(const TrmeshCall& call, bool follow, CallWay* way, Engine* communicator,
+                         Engine* pool) {
   if (communicator != nullptr && communicator->takes(call)) return communicator->carry_out(call, way);
   if (call.n < 3) return {PSTRIPACK_TOO_FEW_NODES};
   if (call.n > most_nodes<std::int32_t>()) return {PSTRIPACK_TOO_MANY_NODES};
@@ -214,11 +214,11 @@ TrmeshResult carry_out(const TrmeshCall& call, bool follow, CallWay* way, Engine
 TrmeshResult trmesh(const TrmeshCall& call, CallWay* way, Engine* communicator, Engine* pool) {
   const AtWork here(1);
   const bool follow = original_rules().follow && !call.by_direction;
-  return carry_out(call, follow, way, follow ? nullptr : communicator, follow ? nullptr : pool);
+  return by_best_way(call, follow, way, follow ? nullptr : communicator, follow ? nullptr : pool);
 }
 
 TrmeshResult canonical_trmesh(const TrmeshCall& call, CallWay* way) {
-  return carry_out(call, false, way, nullptr, nullptr);
+  return by_best_way(call, false, way, nullptr, nullptr);
 }
 
 }  // namespace pstripack

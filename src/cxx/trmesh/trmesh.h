@@ -23,17 +23,17 @@ TrmeshResult canonical_trmesh(const TrmeshCall& call, CallWay* way = nullptr);
 
 /// The common path of every way to carry out a call: by one hull, on threads, by ranks. A Way has
 ///   std::optional<Coincidence> triangulate(std::size_t n)  of the first n nodes; the first coincidence
-///   void deliver()                                         writes the lists of the last triangulation
+///   void write()                                           writes the lists of the last triangulation
 /// If nodes L and M > L coincide, M the smallest such, the lists are those of nodes 1..M-1.
 template <class Way>
-TrmeshResult triangulate_and_deliver(std::int32_t n, Way& way) {
+TrmeshResult triangulate_and_write(std::int32_t n, Way& way) {
   TrmeshResult result{0};
   if (const auto first = way.triangulate(static_cast<std::size_t>(n))) {
     result = {static_cast<std::int32_t>(first->l), first->l, first->m};
     // Nodes 1..M-1 do not coincide, and the first three are not on one great circle: M > 3.
     way.triangulate(static_cast<std::size_t>(first->m) - 1);
   }
-  way.deliver();
+  way.write();
   return result;
 }
 

@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <atomic>
-#include <new>
 #include <optional>
-#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "base/cached.h"
 #include "base/parallel_for.h"
 #include "lists/list_pieces.h"
 #include "mesh/flips.h"
@@ -60,12 +59,14 @@ struct CachedMesh {
   ListChanges changes;  ///< from find_mesh() to write()
 };
 
-struct LastMesh {
-  std::size_t n;
-  pid_t process;
+struct LastMesh : CachedThing {
+  LastMesh(std::size_t nodes, SampleOfStars some, const Patience& p)
+      : n(nodes), sample(std::move(some)), patience(p) {}
+  const std::size_t n;
+  const pid_t process = getpid();
   SampleOfStars sample;
   Patience patience;
-  std::unique_ptr<CachedMesh> cached = nullptr;
+  std::unique_ptr<CachedMesh> cached;
   Confirm confirm = Confirm::nothing;  ///< of the call that left the mesh
 
   void lose_patience() {
@@ -76,36 +77,29 @@ struct LastMesh {
 
 namespace {
 
-constexpr std::size_t kLast = 4;  ///< number of meshes cached
-std::atomic<LastMesh*> last_meshes[kLast];
-std::atomic<unsigned> next_to_go{0};
-
 /// Takes the mesh of an earlier call whose sample fits these nodes; null if there is none. If meshes with
 /// as many nodes do not fit, raises `patience` to theirs.
 std::unique_ptr<LastMesh> take_last_mesh(const NodeArrays& nodes, std::size_t n, Patience& patience) {
-  for (auto& place : last_meshes) {
-    std::unique_ptr<LastMesh> last(place.exchange(nullptr, std::memory_order_acq_rel));
+  for (int place = 0; place < kSharedPlaces; ++place) {
+    std::unique_ptr<CachedThing> thing = take_out_of(place);
+    auto* const last = static_cast<LastMesh*>(thing.get());
     if (last == nullptr || last->process != getpid()) continue;  // a forked child begins anew
     if (last->n == n) {
-      if (last->sample.fits(nodes)) return last;
+      if (last->sample.fits(nodes)) return thing.release(), std::unique_ptr<LastMesh>(last);
       patience = longest(patience, last->patience);
     }
-    LastMesh* none = nullptr;
-    if (place.compare_exchange_strong(none, last.get(), std::memory_order_acq_rel)) last.release();
+    put_into(place, thing);
   }
   return nullptr;
 }
 
-void put_back(std::unique_ptr<LastMesh> last) {
-  for (auto& place : last_meshes) {
-    LastMesh* none = nullptr;
-    if (place.compare_exchange_strong(none, last.get(), std::memory_order_acq_rel)) {
-      last.release();
-      return;
-    }
-  }
-  auto& place = last_meshes[next_to_go.fetch_add(1, std::memory_order_relaxed) % kLast];
-  last.reset(place.exchange(last.release(), std::memory_order_acq_rel));
+void put_back(std::unique_ptr<CachedThing> last) {
+  for (int place = 0; place < kSharedPlaces; ++place)
+    if (put_into(place, last)) return;
+  static std::atomic<unsigned> next_to_go{0};
+  const auto place = static_cast<int>(next_to_go++ % unsigned{kSharedPlaces});
+  take_out_of(place);
+  put_into(place, last);
 }
 
 // ---- lists ------------------------------------------------------------------------------------------------
@@ -161,57 +155,39 @@ WarmStart::~WarmStart() {
 
 bool WarmStart::is_prepared() const { return last_ != nullptr && last_->cached != nullptr; }
 
-/// Sets the positions of the mesh's nodes. Returns whether all have length one, and whether any has moved.
-std::pair<bool, bool> WarmStart::move_nodes(CachedMesh& cached) const {
-  constexpr std::size_t kAhead = 16;
-  const bool is_new = !cached.mesh, is_exact = confirm_ == Confirm::directions;
-  const auto is_one = [&](const Point& p) {
-    return is_exact ? length_is_one_up_to_rounding(p) : length_is_one(p);
-  };
+/// Sets the positions of the mesh's nodes, after making the mesh if need be. What is made anew counts as
+/// moved.
+MovingMesh::Moved WarmStart::move_nodes(CachedMesh& cached) const {
+  const bool is_new = !cached.mesh;
   if (is_new) {
     BlockArray<Point> points(n_);
     nodes_.copy(0, n_, points.data());
-    if (!std::all_of(points.begin(), points.end(), is_one)) return {false, false};
+    const auto fits = [&](const Point& p) { return has_length_for(confirm_, p); };
+    if (!std::all_of(points.begin(), points.end(), fits)) return {false, false};
     cached.mesh.emplace(points.data(), n_, cached.list.data(), cached.lend.data());
   }
-  MovingMesh& mesh = *cached.mesh;
-  std::atomic<bool> all_have_length_one{true}, any_has_moved{false};
-  nodes_.visit([&](const auto& node) {
-    parallel_pieces(n_, threads_for(n_), [&](std::size_t first, std::size_t last, int) {
-      bool have_length_one = true, has_moved = false;
-      for (std::size_t k = first; k < last; ++k) {
-        if (k + kAhead < last) mesh.prefetch(k + kAhead);
-        const Point p = node(k);
-        Point& place = mesh.node(k);
-        have_length_one = have_length_one & is_one(p);
-        has_moved = has_moved | (is_new || place != p);  // the nodes of a new mesh are not set yet
-        place = p;
-      }
-      if (!have_length_one) all_have_length_one = false;
-      if (has_moved) any_has_moved = true;
-    });
-  });
-  return {all_have_length_one, any_has_moved};
+  const auto [fit, any_has_moved] = cached.mesh->move(nodes_, confirm_);
+  return {fit, any_has_moved || is_new};
 }
 
 bool WarmStart::find_mesh(ParallelCost* cost) noexcept {
   if (!is_prepared()) return false;
   CachedMesh& cached = *last_->cached;
   try {
-    bool fits, has_moved;
+    MovingMesh::Moved moved;
     {
       const PhaseTimer timer(cost, ParallelCost::divide);
-      std::tie(fits, has_moved) = move_nodes(cached);
-      fits = fits && left(nodes_[0], nodes_[1], nodes_[2]) != 0;
+      moved = move_nodes(cached);
     }
+    bool fits = moved.fit && left(nodes_[0], nodes_[1], nodes_[2]) != 0;
     const PhaseTimer timer(cost, ParallelCost::triangulate);
-    if (fits && (has_moved || last_->confirm != confirm_)) fits = cached.mesh->repair(confirm_);
+    if (fits && (moved.any || last_->confirm != confirm_)) fits = cached.mesh->repair(confirm_);
     last_->confirm = confirm_;
     if (fits) {
       cached.changes = ListChanges(cached);
       if (cost != nullptr) {
         cost->set_threads(thread_count(n_));
-        cost->flips = has_moved ? static_cast<std::int64_t>(cached.mesh->flips()) : 0;
+        cost->flips = moved.any ? static_cast<std::int64_t>(cached.mesh->flips()) : 0;
       }
       return true;
     }
@@ -255,11 +231,10 @@ void WarmStart::remember(const ListArrays& lists) noexcept {
     return;  // no warm start for meshes with a boundary
   try {
     if (last_ == nullptr) {
-      last_.reset(new LastMesh{n_, getpid(), sample_of(n_, list, lend), patience_});
+      last_ = std::make_unique<LastMesh>(n_, sample_of(n_, list, lend), patience_);
       return;
     }
     if (last_->patience.is_enough()) {
-      set_free_more(forget_last_meshes);
       last_->cached = std::make_unique<CachedMesh>(n_, slots);
       copy(list, slots, last_->cached->list.data());
       copy(lend, n_, last_->cached->lend.data());
@@ -268,15 +243,6 @@ void WarmStart::remember(const ListArrays& lists) noexcept {
     // No memory: the next call is cold, too.
   }
   if (last_ != nullptr) take_sample(list, lend);
-}
-
-bool forget_last_meshes() noexcept {
-  bool any = false;
-  for (auto& place : last_meshes) {
-    const std::unique_ptr<LastMesh> last(place.exchange(nullptr, std::memory_order_acq_rel));
-    any = any || last != nullptr;
-  }
-  return any;
 }
 
 }  // namespace pstripack

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <utility>
 
 #include "geometry/predicates.h"
+#include "mesh/flips.h"
 #include "parallel/cost.h"
 #include "trmesh/call.h"
 #include "trmesh/patience.h"
@@ -45,7 +45,7 @@ class WarmStart {
   void remember(const ListArrays& lists) noexcept;
 
  private:
-  std::pair<bool, bool> move_nodes(CachedMesh& cached) const;
+  MovingMesh::Moved move_nodes(CachedMesh& cached) const;
   void take_sample(const std::int32_t* list, const std::int32_t* lend) noexcept;
 
   const NodeArrays nodes_;
@@ -54,8 +54,5 @@ class WarmStart {
   std::unique_ptr<LastMesh> last_;
   Patience patience_;  ///< for a mesh first cached by this call
 };
-
-/// Destroys the cached meshes of this process, except those that a running call owns. True if there were any.
-bool forget_last_meshes() noexcept;
 
 }  // namespace pstripack
