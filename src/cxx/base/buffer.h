@@ -20,7 +20,7 @@ class Buffer {
  public:
   Buffer() = default;
   explicit Buffer(std::size_t n) : size_(n) {
-    // untested: no number of nodes that is let in asks for so much
+    // no number of nodes that is let in asks for so much
     if (n > static_cast<std::size_t>(PTRDIFF_MAX) / sizeof(T)) throw std::bad_alloc();
     const std::size_t bytes = n * sizeof(T);
     if (bytes < 2 * kHugePage) {

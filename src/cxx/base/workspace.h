@@ -62,7 +62,7 @@ class BlockArray {
  private:
   static_assert(std::is_trivially_copyable_v<T>);
   static std::size_t bytes_of(std::size_t n) {
-    // untested: no number of nodes that is let in asks for so much
+    // no number of nodes that is let in asks for so much
     if (n > static_cast<std::size_t>(PTRDIFF_MAX) / sizeof(T)) throw std::bad_alloc();
     return n * sizeof(T);
   }
@@ -115,7 +115,7 @@ class Workspace {
     return (bytes + kAlignment - 1) / kAlignment * kAlignment;
   }
   void check() const {
-    // untested: a bug in our own reckoning
+    // a bug in our own reckoning
     if (front_ > back_ || back_ == 0) throw std::length_error("pstripack: a workspace is too small");
   }
 

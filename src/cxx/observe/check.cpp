@@ -42,18 +42,18 @@ void append(const std::string& path, iovec* parts, int count) {
     }
   } const file{open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC | O_NOCTTY | O_NONBLOCK, 0666)};
   if (file.number < 0) throw std::runtime_error(std::strerror(errno));
-  // untested: an open file can be locked, unless a signal interrupts
+  // an open file can be locked, unless a signal interrupts
   while (flock(file.number, LOCK_EX) != 0)
     if (errno != EINTR) throw std::runtime_error(std::strerror(errno));
   struct stat before {};
-  // untested: an open file has a state
+  // an open file has a state
   if (fstat(file.number, &before) != 0) throw std::runtime_error(std::strerror(errno));
   if (S_ISFIFO(before.st_mode)) throw std::runtime_error("a pipe; a file is needed");
   if (transfer_all(parts, count, [&](iovec* some, int number) { return writev(file.number, some, number); }))
     return;
   const std::string why = std::strerror(errno);
   // Half a block would make later blocks of other processes unreadable.
-  // untested: a file that could be made longer can be made shorter
+  // a file that could be made longer can be made shorter
   if (S_ISREG(before.st_mode) && ftruncate(file.number, before.st_size) != 0)
     throw std::runtime_error(why + "; its last block is not complete");
   throw std::runtime_error(why);

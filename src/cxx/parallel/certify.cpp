@@ -155,7 +155,7 @@ Certified<Int> certify(Patches<Int> patches, const Division& division, Communica
         patches.see_coincidence, exist);
     // Patches may know different pairs of nodes that coincide; the pair that is reported must not depend on
     // them.
-    // untested: nodes in one direction are in the same margins, so patches see them before the first lists
+    // nodes in one direction are in the same margins, so patches see them before the first lists
     if (patches.see_coincidence.value) throw PatchesDoNotPay{};
     if (!exist.value) break;  // every list has matched, and no hull has grown since: the hulls agree
     const Parcels asked = exchange_in_agreement(ranks, [&] { return packed(questions); });

@@ -41,7 +41,7 @@ GroupCost group_cost(Communicator& ranks, const ParallelCost& mine) {
       std::memcpy(&other, all.bytes.data() + all.begin[static_cast<std::size_t>(r)], sizeof other);
       group.add(other);
     }
-    // untested: memory that ends on a rank while a report is gathered: mpi_allocation_test, which needs MPI
+    // memory that ends on a rank while a report is gathered: mpi_allocation_test, which needs MPI
   } catch (const AgreedFailure&) {
     group = GroupCost(mine);  // a report is no reason to fail
   }

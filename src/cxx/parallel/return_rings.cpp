@@ -135,7 +135,7 @@ void check_euler(StarSums sums, const Division& division, Communicator& ranks) {
   const bool is_right =
       sums.nodes == static_cast<std::int64_t>(division.nodes) && sums.are_of_sphere_or_disc();
   assert(is_right);
-  if (!is_right) throw PatchesDoNotPay{};  // untested: a bug in our own program
+  if (!is_right) throw PatchesDoNotPay{};  // a bug in our own program
 }
 
 }  // namespace
