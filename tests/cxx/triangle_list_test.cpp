@@ -242,7 +242,7 @@ TEST(TriangleList, NumbersTrianglesOfTheVoronoiDiagram) {
 
 /// Where the original needs N*N steps, here hours; and the same for any number of threads.
 TEST(TriangleList, OfAHubTakesNoLongerAndIsTheSameOnAnyNumberOfThreads) {
-  const std::vector<Point> ring = point_sets::make("ring", 200001);
+  const std::vector<Point> ring = point_sets::make("ring", 50001);
   const Plain lists = plain_lists(ring, Slots::canonical);
   Arrays<std::int32_t> arrays(lists);
   std::vector<std::int32_t> first;
@@ -254,8 +254,8 @@ TEST(TriangleList, OfAHubTakesNoLongerAndIsTheSameOnAnyNumberOfThreads) {
     EXPECT_EQ(static_cast<std::size_t>(nt), ring.size() - 1);
     if (first.empty()) first = ltri;
     EXPECT_EQ(ltri, first) << threads;
-    expect_voronoi<double, std::int32_t>(lists, ring);
   }
+  expect_voronoi<double, std::int32_t>(lists, ring);
 }
 
 TEST(CellAreas, NameNodesThatAreTooClose) {
