@@ -794,6 +794,20 @@ TEST(BadInput, GeneratorsInATriangle) {
   EXPECT_THROW(run(generators, kConstant, {}), GeneratorsInHemisphere);
 }
 
+TEST(BadInput, GeneratorsOfWhichTheFirstThreeLieOnAGreatCircle) {
+  std::vector<Point> circle;
+  for (int k = 0; k < 8; ++k)
+    circle.push_back(point_sets::normalized({std::cos(k * 0.75), std::sin(k * 0.75), 0}));
+  EXPECT_THROW(run(circle, kConstant, {}), GeneratorsInHemisphere);
+  circle.push_back({0, 0, 1});
+  EXPECT_THROW(run(circle, kConstant, {}), GeneratorsInHemisphere);
+  circle.push_back({0, 0, -1});
+  circle.push_back(circle[3]);
+  const auto error = error_of<CoincidentGenerators>(circle, kConstant);
+  EXPECT_EQ(error.first, 4);
+  EXPECT_EQ(error.second, 11);
+}
+
 TEST(BadInput, Densities) {
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {0.0, -1.0, static_cast<double>(NAN), infinity}) {

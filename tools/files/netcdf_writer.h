@@ -204,6 +204,7 @@ class NetcdfWriter {
   template <class Value, class Row>
   void put_rows(const std::vector<int>& variables, std::size_t rows, std::size_t width,
                 const Row& row) const {
+    if (rows == 0) return;  // of a process without faces, whose width may be 0
     const std::size_t together = variables.size() * width;
     const std::size_t most = std::min(rows, std::max<std::size_t>((std::size_t{1} << 20) / together, 1));
     std::vector<Value> values(most * together);

@@ -135,11 +135,12 @@ Certified<Int> certify(Patches<Int> patches, const Division& division, Communica
       patches.for_each(threads, [](Patch<Int>& patch, PatchHere) { patch.update_lists(); });
       return packed_lists(patches, division.patches);
     });
-    std::vector<std::vector<Question>> questions(division.patches.ranks());  // to each rank
+    std::vector<std::vector<Question>> questions;  // to each rank
     OnAny exist;
     in_agreement(
         ranks,
         [&] {
+          questions.resize(division.patches.ranks());
           const auto of_others = sorted_lists(lists, patches);
           std::vector<std::vector<Question>> of_patch(patches.of_rank.size());
           patches.for_each(
@@ -155,7 +156,7 @@ Certified<Int> certify(Patches<Int> patches, const Division& division, Communica
         patches.see_coincidence, exist);
     // Patches may know different pairs of nodes that coincide; the pair that is reported must not depend on
     // them.
-    // nodes in one direction are in the same margins, so patches see them before the first lists
+    // Nodes in one direction are in the same margins, so patches see them before the first lists.
     if (patches.see_coincidence.value) throw PatchesDoNotPay{};
     if (!exist.value) break;  // every list has matched, and no hull has grown since: the hulls agree
     const Parcels asked = exchange_in_agreement(ranks, [&] { return packed(questions); });

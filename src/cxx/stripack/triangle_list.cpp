@@ -49,9 +49,8 @@ class TriangleList {
   }
 
   /// Writes rows 7-9 of the `count` triangles. An arc is numbered with the later of its two triangles, or
-  /// with its only one.
-  void number_arcs(Int count, int threads) const {
-    std::vector<Int> arcs(static_cast<std::size_t>(threads) + 1);  // before the triangles of each thread
+  /// with its only one. `arcs`: zeros, one for each thread and another one.
+  void number_arcs(Int count, int threads, std::vector<Int>& arcs) const {
     const auto for_each_new_arc = [&](std::size_t first, std::size_t last, const auto& visit) {
       for (Int t = static_cast<Int>(first) + 1; t <= static_cast<Int>(last); ++t)
         for (int side = 0; side < 3; ++side)
@@ -61,6 +60,7 @@ class TriangleList {
                     [&](std::size_t first, std::size_t last, int piece) {
                       for_each_new_arc(first, last, [&](Int, int) { ++arcs[piece + 1]; });
                     });
+    // Now those before the triangles of each thread.
     for (int piece = 0; piece < threads; ++piece) arcs[piece + 1] += arcs[piece];
     parallel_pieces(static_cast<std::size_t>(count), threads,
                     [&](std::size_t first, std::size_t last, int piece) {
@@ -107,10 +107,11 @@ TriangleListStatus triangle_list(const ListsView<Int>& lists, int rows, Int& nt,
   TriangleNumbers<Int, TriangleList<Int>::pairs> numbers(rings, threads);
   if (numbers.count() > 2 * n - 4) return TriangleListStatus::broken_lists;  // LTRI would be overrun
   BlockArray<Int> left(static_cast<std::size_t>(rings.arcs()));
+  std::vector<Int> arcs(static_cast<std::size_t>(threads) + 1);  // here: what fails leaves LTRI as it was
   const TriangleList<Int> columns(rings, rows, left.data(), ltri);
   const auto write = [&](std::size_t first, std::size_t last, Int t) { columns.write(first, last, t); };
   if (!numbers.write(0, left.data(), write)) return TriangleListStatus::broken_lists;
-  if (rows == 9) columns.number_arcs(numbers.count(), threads);
+  if (rows == 9) columns.number_arcs(numbers.count(), threads, arcs);
   nt = numbers.count();
   return TriangleListStatus::done;
 }
