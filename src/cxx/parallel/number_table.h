@@ -27,18 +27,20 @@ inline RankNumber meeting_rank(GlobalNumber number, std::size_t ranks) {
 }
 
 /// Finds values by keys, which have a hash_of(); Key{}, as kNoNumber, is none. Throws std::bad_alloc when
-/// made, and in insert() if there are more than `most`.
+/// made for one or more, and in insert() if there are more than `most`.
 template <class Key, class Value>
 class Table {
  public:
   explicit Table(std::size_t most = 0) {
-    std::size_t places = 16;
+    if (most == 0) return;
+    std::size_t places = kFewest;
     while (places < 2 * most) places *= 2;
     place_.resize(places);
   }
 
   /// The value of the key, and whether the key is new: a new one gets `value`.
   std::pair<Value, bool> insert(const Key& key, Value value) {
+    if (place_.empty()) place_.resize(kFewest);
     if (Place& place = place_[find_place(key)]; place.key == key) return {place.value, false};
     if (2 * ++size_ > place_.size()) grow();
     place_[find_place(key)] = {key, value};
@@ -46,14 +48,18 @@ class Table {
   }
   /// Null if the key is not in the table.
   Value* find(const Key& key) {
+    if (place_.empty()) return nullptr;
     Place& place = place_[find_place(key)];
     return place.key == key ? &place.value : nullptr;
   }
   const Value* find(const Key& key) const { return const_cast<Table*>(this)->find(key); }
   /// A hint that the key will be asked for soon.
-  [[gnu::always_inline]] void prefetch(const Key& key) const { __builtin_prefetch(&place_[home(key)], 1); }
+  [[gnu::always_inline]] void prefetch(const Key& key) const {
+    if (!place_.empty()) __builtin_prefetch(&place_[home(key)], 1);
+  }
 
  private:
+  static constexpr std::size_t kFewest = 16;
   struct Place {
     Key key{};
     Value value{};
