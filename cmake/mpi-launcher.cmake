@@ -35,7 +35,7 @@ function(starts_ranks test)
   if(NOT arg_PROCESSORS)
     set(arg_PROCESSORS 1)
   endif()
-  math(EXPR limit "${arg_LIMIT} * ${mpi_patience}")
+  math(EXPR limit "3 * ${arg_LIMIT} * ${mpi_patience}")  # beside other programs ranks take several times as long
   set(labels mpi ${arg_LABELS})
   set(environment ${mpi_environment} ${arg_ENVIRONMENT})
   set_tests_properties(${test} PROPERTIES TIMEOUT ${limit} COST ${arg_LIMIT} PROCESSORS ${arg_PROCESSORS} LABELS "${labels}"
