@@ -277,11 +277,9 @@ template <int terms, class Mean>
     return first;
 }
 
-/// Integrates all triangles with so many terms of the series, the mass with one more; `is_constant`: with
-/// density 1.
+/// Integrates all triangles with so many terms of the series; `is_constant`: with density 1.
 template <int terms, bool is_constant>
 void integrate_triangles(Entries& e) {
-  constexpr int terms_of_mass = std::min(terms + 1, 5);
   const double *const x = e.x.data(), *const y = e.y.data();
   const double *const centre = e.centre.data(), *const linear = e.linear.data();
   const double *const curved = e.curved.data(), *const bend = e.bend.data();
@@ -301,7 +299,7 @@ void integrate_triangles(Entries& e) {
         const double c = curved[k] + t * (curved[k + 1] - curved[k]) + t * (1 - t) * bend[k];
         return centre[k] * (1.0 / power) + b * (1.0 / (power + 1)) + c * (1.0 / (power + 2));
       };
-      m += w * series<terms_of_mass>(kOfMass, s, 2, mean);
+      m += w * series<terms>(kOfMass, s, 2, mean);
       f += w * s * series<terms>(kOfEnergy, s, 4, mean);
       const double p = w * series<terms>(kOfPull, s, 3, mean);
       px += p * u;
