@@ -24,7 +24,7 @@
 // Gauss's with three points, exact for z^2. In a cell with s <= kSmall at all corners the error is below
 // 5e-8, that of the energy below 5e-7 in a round cell and 1.5e-5 in a long one (found by trial), and falls
 // with s^2. If the density is constant and s <= kTiny, three terms are enough: the next are below 2e-7, and
-// fall with s^3.
+// fall with s^3; the integrals over t then have closed forms.
 //
 // The density is interpolated by a polynomial of degree 2 in each triangle, from its values at 0, P, Q and
 // the midpoints of the three sides: on a ray density = a + b(t) r + c(t) r^2. Its products with the weights
@@ -54,7 +54,7 @@ namespace {
 
 constexpr double kFine = 3e-4, kTiny = 4e-3, kSmall = 0.02;  ///< s of the farthest corner
 constexpr double kRough = 4;                                 ///< largest density in a cell over the smallest
-constexpr double kSmooth = 1.25;                             ///< the same, in a fine cell
+constexpr double kSmooth = 1.25;                             ///< the same
 constexpr double kClose = 1e-16;  ///< u.u of neighbours where the rounding of lengths matters
 constexpr double kFlat = 1e-16;   ///< squared sine of an angle too small to find its corner from
 
@@ -227,15 +227,15 @@ struct Entries {
   std::vector<double> x, y, s;     ///< corner between neighbours k and k+1
   std::vector<double> mass, energy, pull_x, pull_y;  ///< triangle between corners k and k+1
   std::vector<double> density;                       ///< at the corner, if it is not constant
-  /// Then on the ray to the corner the density is centre + linear r + curved r^2. Between two corners
-  /// `linear` and `curved` are interpolated, and bend t (1-t) is added to `curved`.
-  std::vector<double> centre, linear, curved, bend;
+  /// Of a smooth cell: density = centre + linear r + (rest + xx x^2 + xy x y + yy y^2) r^2 on the ray to the
+  /// corner.
+  std::vector<double> centre, linear, rest, xx, xy, yy;
 
   void resize(std::size_t n) {
     count = n;
     if (u.size() >= n) return;
     for (auto* array : {&u, &v, &half, &x, &y, &s, &mass, &energy, &pull_x, &pull_y, &density, &centre,
-                        &linear, &curved, &bend})
+                        &linear, &rest, &xx, &xy, &yy})
       array->resize(n);
   }
 };
@@ -261,47 +261,59 @@ void find_corners(Entries& e) {
   }
 }
 
-// Coefficients of the series above.
-constexpr double kOfMass[] = {1, -3.0 / 2, 15.0 / 8, -35.0 / 16, 315.0 / 128};
-constexpr double kOfEnergy[] = {1, -9.0 / 4, 29.0 / 8, -325.0 / 64, 843.0 / 128};
-constexpr double kOfPull[] = {1, -2, 3, -4, 5};
-
-/// The sum of coefficient[j] mean(power + 2 j) s^j over j = 0..terms-1.
-template <int terms, class Mean>
-[[gnu::always_inline]] inline double series(const double* coefficient, double s, int power,
-                                            const Mean& mean) {
-  const double first = coefficient[0] * mean(power);
-  if constexpr (terms > 1)
-    return first + s * series<terms - 1>(coefficient + 1, s, power + 2, mean);
-  else
-    return first;
-}
-
-/// Integrates all triangles with so many terms of the series; `is_constant`: with density 1.
-template <int terms, bool is_constant>
-void integrate_triangles(Entries& e) {
-  const double *const x = e.x.data(), *const y = e.y.data();
-  const double *const centre = e.centre.data(), *const linear = e.linear.data();
-  const double *const curved = e.curved.data(), *const bend = e.bend.data();
+/// Integrates with density 1 and three terms of the series. With A = P.P, B = P.Q, C = Q.Q, T = A+C, G = AC
+/// the means over t of s, s^2, s^3 are
+///     (T+B)/3,  (3 T (T+B) + 2 B^2 - 5 G)/15,  (5 T^2 (T+B) + (2T+B) (2 B^2 - 7 G))/35,
+/// and (x,y) = (1-t) P + t Q needs those of (1-t) s and (1-t) s^2 for P,
+///     (3A+2B+C)/12,  (M + 2A (2A+B))/30  with  M = T (T+2B) + 2 B^2 - G,
+/// and the same for Q with A and C exchanged.
+void integrate_tiny(Entries& e) {
+  const double *const x = e.x.data(), *const y = e.y.data(), *const s = e.s.data();
   double *const mass = e.mass.data(), *const energy = e.energy.data();
   double *const pull_x = e.pull_x.data(), *const pull_y = e.pull_y.data();
 #ifndef __clang__
 #pragma GCC ivdep  // the arrays do not overlap; Clang tests that itself
 #endif
   for (std::size_t k = 0; k + 1 < e.count; ++k) {
-    const double dx = x[k + 1] - x[k], dy = y[k + 1] - y[k], det = x[k] * dy - y[k] * dx;
+    const double det = x[k] * y[k + 1] - y[k] * x[k + 1];
+    const double a = s[k], b = x[k] * x[k + 1] + y[k] * y[k + 1], c = s[k + 1], t = a + c, g = a * c;
+    const double b2 = 2 * b * b, one = t + b, two = 3 * t * one + (b2 - 5 * g);
+    const double three = 5 * t * t * one + (2 * t + b) * (b2 - 7 * g), m = t * (t + 2 * b) + (b2 - g);
+    const double p = 1.0 / 6 - (one + b + 2 * a) * (1.0 / 30) + (m + 2 * a * (2 * a + b)) * (1.0 / 70);
+    const double q = 1.0 / 6 - (one + b + 2 * c) * (1.0 / 30) + (m + 2 * c * (2 * c + b)) * (1.0 / 70);
+    mass[k] = det * (0.5 - one * (1.0 / 8) + two * (1.0 / 48) - three * (1.0 / 128));
+    energy[k] = det * (one * (1.0 / 12) - two * (1.0 / 40) + three * (29.0 / 2240));
+    pull_x[k] = det * (p * x[k] + q * x[k + 1]);
+    pull_y[k] = det * (p * y[k] + q * y[k + 1]);
+  }
+}
+
+/// Integrates the smooth cells, with two terms of the series. On the ray t, with the means over r of 1, r,
+/// r^2 times the three powers of z.
+void integrate_smooth(Entries& e) {
+  const double *const x = e.x.data(), *const y = e.y.data();
+  const double *const centre = e.centre.data(), *const linear = e.linear.data();
+  const double* const rest = e.rest.data();
+  const double *const xx = e.xx.data(), *const xy = e.xy.data(), *const yy = e.yy.data();
+  double *const mass = e.mass.data(), *const energy = e.energy.data();
+  double *const pull_x = e.pull_x.data(), *const pull_y = e.pull_y.data();
+#ifndef __clang__
+#pragma GCC ivdep  // the arrays do not overlap; Clang tests that itself
+#endif
+  for (std::size_t k = 0; k + 1 < e.count; ++k) {
+    const double dx = x[k + 1] - x[k], dy = y[k + 1] - y[k], det = x[k] * dy - y[k] * dx, a = centre[k];
     double m = 0, f = 0, px = 0, py = 0;
     const auto add = [&](double t, double weight) {
-      const double u = x[k] + t * dx, v = y[k] + t * dy, s = u * u + v * v, w = weight * det;
-      const auto mean = [&](int power) {  // over r, of the density times r^(power-1)
-        if constexpr (is_constant) return 1.0 / power;
-        const double b = linear[k] + t * (linear[k + 1] - linear[k]);
-        const double c = curved[k] + t * (curved[k + 1] - curved[k]) + t * (1 - t) * bend[k];
-        return centre[k] * (1.0 / power) + b * (1.0 / (power + 1)) + c * (1.0 / (power + 2));
+      const double u = x[k] + t * dx, v = y[k] + t * dy, s = u * u + v * v;
+      const double b = linear[k] + t * (linear[k + 1] - linear[k]);
+      const double c = rest[k] + t * (rest[k + 1] - rest[k]) + u * (xx[k] * u + xy[k] * v) + yy[k] * v * v;
+      const auto mean = [&](int power) {  // of the density times r^(power-1)
+        return a * (1.0 / power) + b * (1.0 / (power + 1)) + c * (1.0 / (power + 2));
       };
-      m += w * series<terms>(kOfMass, s, 2, mean);
-      f += w * s * series<terms>(kOfEnergy, s, 4, mean);
-      const double p = w * series<terms>(kOfPull, s, 3, mean);
+      const double w = weight * det;
+      m += w * (mean(2) - s * (1.5 * mean(4)));
+      f += w * s * (mean(4) - s * (2.25 * mean(6)));
+      const double p = w * (mean(3) - s * (2 * mean(5)));
       px += p * u;
       py += p * v;
     };
@@ -338,14 +350,23 @@ class SmallCells {
     find_corners(e_);
     close_cells();
     if (density_.is_constant()) {
-      integrate_cells<3, true>(Size::fine, constant_);
-      integrate_cells<5, true>(Size::small, constant_);
+      if (std::find(size_.begin(), size_.end(), Size::tiny) != size_.end()) integrate_tiny(e_);
+      for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
+        if (size_[i - first_] == Size::tiny) write(i, k, count, constant_);
+        if (size_[i - first_] != Size::small) return;
+        const double c = constant_;
+        for (std::size_t j = k; j < k + count; ++j) integrate_triangle(j, c, {c, c, c}, {c, c});
+        write(i, k, count, 1);
+      });
     } else {
       sample_corners();
-      fit_fine_cells();
-      integrate_cells<2, false>(Size::fine, 1);
+      fit_smooth_cells();
+      if (std::find(size_.begin(), size_.end(), Size::smooth) != size_.end()) integrate_smooth(e_);
+      for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
+        if (size_[i - first_] == Size::smooth) write(i, k, count, 1);
+      });
       sample_sides();
-      integrate_cells<5, false>(Size::small, 1);
+      integrate_small();
     }
     for_each_cell([&](std::size_t i, std::size_t, std::size_t) {
       if (size_[i - first_] == Size::large) integrate_large(i);
@@ -355,8 +376,8 @@ class SmallCells {
  private:
   static constexpr std::size_t kAhead = 6 * kCells;  ///< distance of prefetching, in neighbours
 
-  /// Fine: the density varies little, too; large also: rough.
-  enum class Size : char { fine, small, large };
+  /// Tiny: of constant density; smooth: fine, and the density varies little; large also: rough.
+  enum class Size : char { tiny, smooth, small, large };
 
   /// body(i, k, count): cell i has the neighbours, corners and triangles k..k+count-1.
   template <class Body>
@@ -404,26 +425,18 @@ class SmallCells {
 
   void close_cells() {
     double *const x = e_.x.data(), *const y = e_.y.data(), *const s = e_.s.data();
-    const double most = density_.is_constant() ? kTiny : kFine;
+    const bool is_constant = density_.is_constant();
+    const Size tiny = is_constant ? Size::tiny : Size::smooth;
+    const double most = is_constant ? kTiny : kFine;
     size_.resize(last_ - first_);
     for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
-      bool is_fine = true, is_small = true;
+      bool is_tiny = true, is_small = true;
       for (std::size_t j = k; j < k + count; ++j) {
-        is_fine &= s[j] <= most;
+        is_tiny &= s[j] <= most;
         is_small &= s[j] >= 0 && s[j] <= kSmall;
       }
-      size_[i - first_] = !is_small ? Size::large : is_fine ? Size::fine : Size::small;
+      size_[i - first_] = !is_small ? Size::large : is_tiny ? tiny : Size::small;
       x[k + count] = x[k], y[k + count] = y[k], s[k + count] = s[k];
-    });
-  }
-
-  /// Integrates the cells of this size; all integrals are multiplied by `factor`.
-  template <int terms, bool is_constant>
-  void integrate_cells(Size size, double factor) {
-    if (std::find(size_.begin(), size_.end(), size) == size_.end()) return;
-    integrate_triangles<terms, is_constant>(e_);
-    for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
-      if (size_[i - first_] == size) write(i, k, count, factor);
     });
   }
 
@@ -489,12 +502,12 @@ class SmallCells {
 
   /// Least squares at the corners, with lengths in units of their root mean square distance and the basis x,
   /// y, x^2-y^2, 2xy, x^2+y^2, whose normal equations (solved by Cholesky's method) are diagonal in a regular
-  /// cell. A cell of 3 or 4 sides, or nearly, does not determine the polynomial: it is not fine.
-  void fit_fine_cells() {
+  /// cell. A cell of 3 or 4 sides, or nearly, does not determine the polynomial: it is no smooth one.
+  void fit_smooth_cells() {
     constexpr std::size_t kTerms = 5;
     constexpr double kLeastPivot = 0.1;  // 2.5 in a regular pentagon
     for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
-      if (size_[i - first_] != Size::fine) return;
+      if (size_[i - first_] != Size::smooth) return;
       double square = 0;
       for (std::size_t j = k; j < k + count; ++j) square += e_.s[j];
       square /= static_cast<double>(count);
@@ -529,19 +542,17 @@ class SmallCells {
       const double xx = (right[4] + right[2]) / square, xy = 2 * right[3] / square;
       const double yy = (right[4] - right[2]) / square;
       for (std::size_t j = k; j <= k + count; ++j) {
+        const double x = e_.x[j], y = e_.y[j], linear = b_x * x + b_y * y;
         e_.centre[j] = centre;
-        e_.linear[j] = b_x * e_.x[j] + b_y * e_.y[j];
-        e_.curved[j] = e_.density[j] - centre - e_.linear[j];
-      }
-      for (std::size_t j = k; j < k + count; ++j) {
-        const double x = e_.x[j + 1] - e_.x[j], y = e_.y[j + 1] - e_.y[j];
-        e_.bend[j] = -(x * (xx * x + xy * y) + yy * y * y);
+        e_.linear[j] = linear;
+        e_.xx[j] = xx, e_.xy[j] = xy, e_.yy[j] = yy;
+        e_.rest[j] = e_.density[j] - centre - linear - (x * (xx * x + xy * y) + yy * y * y);
       }
     });
   }
 
-  /// Of the small cells that are not fine: samples the density midway between the generator and each corner,
-  /// and between each corner and the next, and sets the polynomials with these values.
+  /// For each entry of the other small cells the density midway between generator and corner, and between
+  /// this corner and the next.
   void sample_sides() {
     samples_.clear();
     for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
@@ -552,24 +563,64 @@ class SmallCells {
       }
     });
     evaluate_samples();
+  }
+
+  void integrate_small() {
     const double* value = values_.data();
     for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
       if (size_[i - first_] != Size::small) return;
       const double* const end = value + 2 * count;
-      const double centre = e_.centre[k];
       const auto [least, most] = std::minmax_element(value, end);
       const auto [low, high] = std::minmax_element(&e_.density[k], &e_.density[k] + count);
-      if (std::max({*most, *high, centre}) > kRough * std::min({*least, *low, centre}))
+      if (std::max({*most, *high, e_.centre[k]}) > kRough * std::min({*least, *low, e_.centre[k]}))
         size_[i - first_] = Size::large;
-      for (std::size_t j = k; j <= k + count; ++j) {
-        const double* const midway = value + 2 * (j < k + count ? j - k : 0);
-        e_.centre[j] = centre;
-        e_.linear[j] = 4 * midway[0] - e_.density[j] - 3 * centre;
-        e_.curved[j] = 2 * (centre + e_.density[j] - 2 * midway[0]);
-        if (j < k + count) e_.bend[j] = 2 * (2 * midway[1] - e_.density[j] - e_.density[j + 1]);
+      for (std::size_t j = 0; j < count; ++j) {
+        const double *const here = value + 2 * j, *const next = value + 2 * (j + 1 < count ? j + 1 : 0);
+        integrate_triangle(k + j, e_.centre[k], {e_.density[k + j], here[0], here[1]},
+                           {e_.density[k + j + 1], next[0]});
       }
+      write(i, k, count, 1);
       value = end;
     });
+  }
+
+  /// here[0], next[0]: the density at the two corners; here[1], next[1]: midway between generator and corner;
+  /// here[2]: midway between the corners.
+  void integrate_triangle(std::size_t k, double centre, const std::array<double, 3>& here,
+                          const std::array<double, 2>& next) {
+    const double dx = e_.x[k + 1] - e_.x[k], dy = e_.y[k + 1] - e_.y[k];
+    const double det = e_.x[k] * dy - e_.y[k] * dx;
+    double mass = 0, energy = 0, pull_x = 0, pull_y = 0;
+    for (int i = 0; i < 3; ++i) {
+      const double t = kGaussPoint[i], x = e_.x[k] + t * dx, y = e_.y[k] + t * dy, s = x * x + y * y;
+      // The polynomial of degree 2 with these values, on the ray: a + b r + c r^2.
+      const double a = centre;
+      const double b = (1 - t) * (4 * here[1] - here[0] - 3 * a) + t * (4 * next[1] - next[0] - 3 * a);
+      const double c = 2 * a + 2 * (1 - t) * (1 - t) * here[0] + 2 * t * t * next[0] - 4 * (1 - t) * here[1] -
+                       4 * t * next[1] + 4 * t * (1 - t) * here[2];
+      // Its integral times r^(power-1).
+      const auto mean = [&](int power) {
+        return a * (1.0 / power) + b * (1.0 / (power + 1)) + c * (1.0 / (power + 2));
+      };
+      const double w = kGaussWeight[i] * det;
+      mass +=
+          w * (mean(2) +
+               s * (-3.0 / 2 * mean(4) +
+                    s * (15.0 / 8 * mean(6) + s * (-35.0 / 16 * mean(8) + s * (315.0 / 128 * mean(10))))));
+      energy +=
+          w * s *
+          (mean(4) +
+           s * (-9.0 / 4 * mean(6) +
+                s * (29.0 / 8 * mean(8) + s * (-325.0 / 64 * mean(10) + s * (843.0 / 128 * mean(12))))));
+      const double p =
+          w * (mean(3) + s * (-2 * mean(5) + s * (3 * mean(7) + s * (-4 * mean(9) + s * (5 * mean(11))))));
+      pull_x += p * x;
+      pull_y += p * y;
+    }
+    e_.mass[k] = mass;
+    e_.energy[k] = energy;
+    e_.pull_x[k] = pull_x;
+    e_.pull_y[k] = pull_y;
   }
 
   const Point* const points_;
