@@ -342,7 +342,7 @@ int run_as(const std::string& action, const std::string& family, std::size_t n, 
     for (int i = 0; i < count; ++i) {
       if (fork() != 0) continue;
       for (int k = 0; k < 5; ++k) call();
-      std::exit(0);
+      _exit(0);  // OpenMP's end in a forked child is not what is tested: libarcher crashes in it
     }
     int failed = 0;
     for (int status; wait(&status) > 0;) failed += status != 0;
