@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "base/parallel_for.h"
@@ -31,6 +32,20 @@ Column whole_numbers(std::string name, std::string long_name, std::vector<double
   column.numbers = std::move(numbers);
   column.whole = true;
   return column;
+}
+
+AngleUnit::AngleUnit(const std::string& text) {
+  std::string word;
+  for (const char c : text)
+    if (c != ' ' && c != '_') word += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  if (word == "rad" || word == "radian" || word == "radians") radians = true;
+  for (const char* const name : {"degrees", "degree", "deg", "arcdegrees", "arcdegree", "angulardegrees",
+                                 "angulardegree", "\xC2\xB0"}) {
+    if (degrees || word.rfind(name, 0) != 0) continue;
+    const std::string rest = word.substr(std::strlen(name));
+    axis = rest == "east" || rest == "e" ? 'o' : rest == "north" || rest == "n" ? 'a' : '\0';
+    degrees = axis != '\0' || rest.empty();
+  }
 }
 
 LonLat::LonLat(const std::vector<pstripack::Point>& points, bool in_degrees)

@@ -13,10 +13,10 @@ namespace files {
 struct Column {
   std::string name, long_name = "", units = "";
   std::vector<double> numbers = {};     ///< NaN: missing
-  std::vector<std::string> texts = {};  ///< used instead of numbers; empty: missing
+  std::vector<std::string> texts = {};  ///< empty: missing; beside numbers: these as they stand in the file
   bool whole = false;                   ///< every number is a 32-bit integer and none is missing
 
-  bool is_text() const { return !texts.empty(); }
+  bool is_text() const { return numbers.empty() && !texts.empty(); }
   std::size_t size() const { return is_text() ? texts.size() : numbers.size(); }
 };
 using Columns = std::vector<Column>;
@@ -28,6 +28,15 @@ void make_names_differ(Columns& columns, std::vector<std::string> taken);
 
 /// A column of integers.
 Column whole_numbers(std::string name, std::string long_name, std::vector<double> numbers);
+
+/// What the text of a unit says of angles: udunits' and CF's spellings (CF 1.11, sections 4.1 and 4.2),
+/// without regard to case, blanks and underscores.
+struct AngleUnit {
+  bool degrees = false, radians = false;  ///< neither: no unit of angles
+  char axis = '\0';                       ///< 'o': longitudes, 'a': latitudes
+
+  explicit AngleUnit(const std::string& text);
+};
 
 /// Longitudes and latitudes, all in degrees or all in radians.
 struct LonLat {

@@ -132,7 +132,8 @@ class Features {
       expect_few_values();
     }
     if (value.is_null()) return;
-    if (value.is_number() && !c->is_text()) {
+    const bool needs_digits = value.is_number_integer() && std::fabs(value.get<double>()) > 0x1p53;
+    if (value.is_number() && !needs_digits && !c->is_text()) {
       c->numbers.resize(i, kMissing);
       return c->numbers.push_back(value.get<double>());
     }

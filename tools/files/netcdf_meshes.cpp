@@ -44,7 +44,8 @@ void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<P
   const int mesh = out.variable("mesh", {},
                                 {{"cf_role", "mesh_topology"},
                                  {"node_coordinates", "mesh_node_lon mesh_node_lat"},
-                                 {"face_dimension", "mesh_faces"}},
+                                 {"face_dimension", "mesh_faces"},
+                                 {kNodeVectors, "mesh_node_x mesh_node_y mesh_node_z"}},
                                 zero);
   out.attribute(mesh, "topology_dimension", 2);
   const auto set_role = [&](int variable, const std::string& role, const std::string& name) {

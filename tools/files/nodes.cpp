@@ -91,12 +91,13 @@ struct Choice {
   bool is_lonlat() const { return place.size() == 2; }
 };
 
-/// The candidate column that names this axis. Throws if two do.
+/// The candidate column that names this axis. If two do, the first of those that the caller has chosen; else
+/// throws.
 std::optional<std::size_t> axis_among(const std::vector<std::size_t>& candidates, char axis,
-                                      const TextLayout& layout, const std::string& where) {
+                                      const TextLayout& layout, bool chosen, const std::string& where) {
   std::optional<std::size_t> found;
   for (const std::size_t c : candidates) {
-    if (axis_of(layout.name(c)) != axis) continue;
+    if (axis_of(layout.name(c)) != axis || (found && chosen)) continue;
     if (found)
       throw std::runtime_error(
           fmt::format("{}: the header names column '{}' twice, {} and {}: choose columns by number", where,
@@ -108,11 +109,11 @@ std::optional<std::size_t> axis_among(const std::vector<std::size_t>& candidates
 
 /// The columns of the coordinates by name; empty if no names fit.
 std::vector<std::size_t> place_by_names(const std::vector<std::size_t>& candidates, const TextLayout& layout,
-                                        Coordinates coordinates, const std::string& where) {
+                                        Coordinates coordinates, bool chosen, const std::string& where) {
   const auto axes = [&](std::string_view names) {
     std::vector<std::size_t> found;
     for (const char axis : names)
-      if (const auto c = axis_among(candidates, axis, layout, where)) found.push_back(*c);
+      if (const auto c = axis_among(candidates, axis, layout, chosen, where)) found.push_back(*c);
     return found;
   };
   if (coordinates != Coordinates::xyz) {
@@ -145,7 +146,8 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
   if (options.variable.find(',') != options.variable.npos)
     fail(fmt::format("--variable names one column, not '{}'", options.variable));
   Choice choice;
-  if (!layout.names.empty()) choice.place = place_by_names(candidates, layout, options.coordinates, where);
+  if (!layout.names.empty())
+    choice.place = place_by_names(candidates, layout, options.coordinates, chosen, where);
   if (choice.place.empty()) {
     std::size_t columns = options.coordinates == Coordinates::xyz ? 3 : 2;
     if (!chosen && detected) {
@@ -166,7 +168,7 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
         throw std::runtime_error(fmt::format(
             "{}:{}: expected 'lon lat' or 'x y z', found {} number{}{}", file, layout.line, layout.columns,
             layout.columns == 1 ? "" : "s",
-            layout.columns == 1 ? "" : ": say --coordinates lonlat or xyz, or choose --columns 1,2"));
+            layout.columns == 1 ? "" : ": say --coordinates lonlat or xyz, or choose --columns 1,2, or of fixed widths 22-30,13-20"));
       columns = is_third ? 2 : layout.columns - (has_value ? 1 : 0);
       choice.is_guess = options.lengths_decide && !has_value && columns == 3;
     }
@@ -207,10 +209,10 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
 Units units_of(const TextLayout& layout, const Choice& choice, Units otherwise, const std::string& file) {
   if (layout.names.empty()) return otherwise;
   const auto of_column = [&](std::size_t c) {
-    const std::string &unit = layout.units[c], &name = layout.names[c];
-    if (unit.rfind("deg", 0) == 0 || unit == "\xC2\xB0" || name.find("_deg") != name.npos)
-      return Units::degrees;
-    if (unit.rfind("rad", 0) == 0 || name.find("_rad") != name.npos) return Units::radians;
+    const AngleUnit unit(layout.units[c]);
+    const std::string& name = layout.names[c];
+    if (unit.degrees || name.find("_deg") != name.npos) return Units::degrees;
+    if (unit.radians || name.find("_rad") != name.npos) return Units::radians;
     return Units::said_or_unmistakable;
   };
   const Units lon = of_column(choice.place[0]), lat = of_column(choice.place[1]);
@@ -254,7 +256,15 @@ Column column_of(TextRows& rows, const TextLayout& layout, std::size_t c) {
 
 void read_text(Nodes& nodes, std::string_view text, const ReadOptions& options) {
   nodes.kind = "text";
-  const TextLayout layout = layout_of(text, nodes.file);
+  if (const auto widths = fixed_widths(options.columns); !widths.empty()) {
+    ReadOptions of_table = options;
+    of_table.columns.clear();
+    for (std::size_t c = 1; c <= widths.size(); ++c)
+      of_table.columns += fmt::format("{}{}", c > 1 ? "," : "", c);
+    of_table.text = {'\t', false};
+    return read_text(nodes, with_tabs(text, widths), of_table);
+  }
+  const TextLayout layout = layout_of(text, nodes.file, options.text);
   Choice choice = choose(layout, options, nodes.file);
   std::vector<Role> roles(layout.columns, Role::skipped);
   if (options.with_columns)
@@ -285,7 +295,8 @@ void read_text(Nodes& nodes, std::string_view text, const ReadOptions& options) 
     }
     for (const std::size_t c : choice.columns)
       if (c != choice.value) nodes.columns.push_back(column_of(rows, layout, c));
-    make_names_differ(nodes.columns, {});
+    make_names_differ(nodes.columns, choice.is_lonlat() ? std::vector<std::string>{"lon", "lat"}
+                                                        : std::vector<std::string>{});
   }
   const auto axis = [&](std::size_t k) -> std::vector<double>& { return rows.numbers[choice.place[k]]; };
   if (choice.is_lonlat()) {
@@ -328,10 +339,12 @@ void read_raw(Nodes& nodes, std::string_view bytes, const ReadOptions& options) 
   nodes.kind += ", x y z";
 }
 
-/// OFF: the word OFF, the counts of vertices, faces and edges, vertices `x y z`, faces `count corner...` with
+/// OFF: comments behind #, the word OFF, the counts of vertices, faces and edges, vertices `x y z`, faces `count corner...` with
 /// corners from 0.
-void read_off(Nodes& nodes, const std::string& text, const ReadOptions& options) {
+void read_off(Nodes& nodes, std::string text, const ReadOptions& options) {
   nodes.kind = "OFF";
+  for (std::size_t begin = text.find('#'); begin != text.npos; begin = text.find('#', begin))
+    text.erase(begin, std::min(text.size(), text.find('\n', begin)) - begin);
   std::istringstream in(text);
   const auto fail = [&](const std::string& what) { throw std::runtime_error(nodes.file + ": " + what); };
   std::string word;
@@ -355,8 +368,29 @@ void read_off(Nodes& nodes, const std::string& text, const ReadOptions& options)
 
 }  // namespace
 
+namespace {
+
+constexpr std::string_view kGridOfAdcirc = "fort.14";
+
+/// True for a title, a line with the numbers of elements and nodes, and rows "1 x y z".
+bool is_grid_of_adcirc(std::string_view text) {
+  std::istringstream lines{std::string(text)};
+  std::string title, line;
+  std::getline(lines, title);
+  long elements = 0, nodes = 0, first = 0;
+  double number = 0, x = 0, y = 0, z = 0;
+  if (point_sets::parse(std::string(first_word(title)), number)) return false;
+  std::getline(lines, line);
+  if (!(std::istringstream(line) >> elements >> nodes) || elements < 1 || nodes < 3) return false;
+  std::getline(lines, line);
+  return static_cast<bool>(std::istringstream(line) >> first >> x >> y >> z) && first == 1;
+}
+
+}  // namespace
+
 void refuse_foreign(const std::string& file, const std::string& contents) {
   constexpr auto kToCsv = "libreoffice --headless --convert-to csv {in}";
+  constexpr auto kToOff = "python3 -c \"import meshio; meshio.read('{in}').write('{out}.off')\"";
   constexpr auto kToGeojson = "ogr2ogr -f GeoJSON -t_srs EPSG:4326 {out}.geojson {in}";
   struct Foreign {
     std::string_view begin, inside;  ///< its first bytes, and a name inside an archive
@@ -374,9 +408,20 @@ void refuse_foreign(const std::string& file, const std::string& contents) {
       {"\xD0\xCF\x11\xE0", "W\0o\0r\0k\0b\0o\0o\0k"sv, "a spreadsheet", kToCsv},
       {"PAR1", "", "Parquet",
        "python3 -c \"import pandas; pandas.read_parquet('{in}').to_csv('{out}.csv', index=False)\""},
-      {"GRIB", "", "GRIB", "cdo -f nc copy {in} {out}.nc"}};
+      {"GRIB", "", "GRIB", "cdo -f nc copy {in} {out}.nc"},
+      {"<?xml", "<VTKFile", "a VTK mesh", kToOff},
+      {"<VTKFile", "", "a VTK mesh", kToOff},
+      {"# vtk DataFile", "", "a VTK mesh", kToOff},
+      {"$MeshFormat", "", "a mesh of gmsh", kToOff},
+      {"", "MSHID=", "a mesh of JIGSAW",
+       "awk -F'[=;]' '/^POINT/{{n=$2;next}} n-->0{{print $1,$2,$3}}' {in} > {out}.txt"},
+      {"", kGridOfAdcirc, "a grid of ADCIRC or SCHISM",
+       "awk 'NR==2{{n=$2}} NR>2&&NR<=n+2{{print $2,$3,$4}}' {in} > {out}.txt"}};
+  const std::string_view whole(contents), head = whole.substr(0, 4096);
   for (const Foreign& f : kForeign) {
-    if (contents.compare(0, f.begin.size(), f.begin) != 0 || contents.find(f.inside) == contents.npos)
+    if (f.inside == kGridOfAdcirc ? !is_grid_of_adcirc(head)
+                                  : whole.substr(0, f.begin.size()) != f.begin ||
+                                        (f.begin.empty() ? head : whole).find(f.inside) == whole.npos)
       continue;
     const std::size_t dot = file.find_last_of("./");
     const std::string stem = dot != file.npos && file[dot] == '.' ? file.substr(0, dot) : file;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "files/columns.h"
+#include "files/text_table.h"
 #include "mesh/triangulation.h"
 
 namespace files {
@@ -38,8 +39,10 @@ struct ReadOptions {
   /// they are lon lat value. Without this they are x y z.
   bool lengths_decide = false;
   /// Names, or in text column numbers, separated by commas: lon,lat or x,y,z, then the columns to read.
-  /// Empty: the names in the file decide, or else the first columns are read.
+  /// Empty: the names in the file decide, or else the first columns are read. Of text also fixed widths,
+  /// 22-30,13-20, which are then the columns.
   std::string columns;
+  TextFormat text = {};
   /// Of NetCDF: read only slice `part` of `parts` equal slices of the nodes, which must not be a grid.
   std::size_t part = 0, parts = 1;
 };
@@ -75,7 +78,8 @@ struct Nodes {
   /// Of an MPAS mesh with a boundary, if requested: the vertices of all triangles, of which some lack
   /// corners: -1 stands for them.
   std::vector<Point> vertices;
-  double radius = 1;  ///< of the sphere, if the file says it
+  std::size_t polygons = 0;  ///< faces of more than three corners, which are not read; nor are the triangles
+  double radius = 1;         ///< of the sphere, if the file says it
 
   /// The number of the node in the file, from 1.
   std::size_t number(std::size_t i) const { return numbers.empty() ? before + i + 1 : numbers[i]; }
@@ -84,6 +88,9 @@ struct Nodes {
   /// Removes all triangles, and all nodes except those with these increasing indices.
   void keep(const std::vector<std::size_t>& indices);
 };
+
+/// Attribute of a UGRID mesh in files of pstripack: the names of three variables, the nodes as vectors.
+constexpr auto kNodeVectors = "pstripack_node_vectors";
 
 /// Reads nodes from text `lon lat` or `x y z` (text_table.h), OFF, NetCDF, GeoJSON, or raw doubles in the
 /// machine's byte order; `-` is stdin. Vectors keep their lengths. Throws std::runtime_error: one line with

@@ -63,7 +63,23 @@ bool is_missing(std::string_view word) {
   return l.empty() || l == "nan" || l == "na" || l == "n/a" || l == "null";
 }
 
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// True for digits that are no number but a name, or have more digits than a number keeps.
+bool is_name_of_digits(std::string_view word) {
+  if (!word.empty() && (word[0] == '-' || word[0] == '+')) word.remove_prefix(1);
+  std::size_t digits = 0;
+  while (digits < word.size() && is_digit(word[digits])) ++digits;
+  const std::string_view rest = word.substr(digits);
+  if (digits > 1 && word[0] == '0') return true;
+  if (rest.empty()) return digits > 15;
+  return digits > 0 && rest.size() > 1 && std::strchr("eEdDxX", rest[0]) != nullptr && is_digit(rest[1]);
+}
+
 bool is_number(std::string_view word, double& value) {
+  constexpr std::string_view kMinus = "\xE2\x88\x92";  // of typography
+  if (word.substr(0, kMinus.size()) == kMinus)
+    return point_sets::parse("-" + std::string(word.substr(kMinus.size())), value);
   const auto [end, error] = point_sets::parse_beginning(word.data(), word.data() + word.size(), value);
   if (error == std::errc() && end == word.data() + word.size()) return std::isfinite(value);
   // Test the first character: strtod is slow and carried columns have many words.
@@ -118,8 +134,8 @@ class Lines {
 
 class Cells {
  public:
-  Cells(std::string_view line, char separator)
-      : at_(line.data()), end_(at_ + line.size()), separator_(separator) {
+  Cells(std::string_view line, char separator, bool has_quotes = true)
+      : at_(line.data()), end_(at_ + line.size()), separator_(separator), has_quotes_(has_quotes) {
     if (separator_ == ' ') skip_blanks();
     more_ = separator_ == ' ' ? begins_cell() : true;
   }
@@ -144,7 +160,7 @@ class Cells {
   /// Reads the cell and removes its quotes. False if a closing quote is missing.
   bool word(std::string_view& word) {
     skip_spaces();
-    if (at_ != end_ && *at_ == '"') {
+    if (has_quotes_ && at_ != end_ && *at_ == '"') {
       const char* p = at_ + 1;
       while (p != end_ && (*p != '"' || (p + 1 != end_ && p[1] == '"'))) p += *p == '"' ? 2 : 1;
       if (p == end_) return false;
@@ -183,13 +199,13 @@ class Cells {
   }
   const char *at_, *end_;
   char separator_;
-  bool more_ = false;
+  bool has_quotes_, more_ = false;
 };
 
-std::vector<std::string> split(std::string_view line, char separator) {
+std::vector<std::string> split(std::string_view line, char separator, bool has_quotes = true) {
   std::vector<std::string> words;
   std::string_view word;
-  for (Cells cells(line, separator); cells.more() && cells.word(word);) words.emplace_back(word);
+  for (Cells cells(line, separator, has_quotes); cells.more() && cells.word(word);) words.emplace_back(word);
   return words;
 }
 
@@ -344,11 +360,11 @@ class Reader {
     Piece ignored;
     while (lines.next(line)) {
       if (!is_row(line, ignored)) continue;
-      Cells cells(line, layout_.separator);
+      Cells cells(line, layout_.separator, layout_.has_quotes);
       auto wanted = columns.begin();
       for (std::size_t c = 0; wanted != columns.end() && cells.more() && cells.word(word); ++c)
         if (c == *wanted) {
-          rows.texts[c].push_back(without_doubled_quotes(word));
+          rows.texts[c].push_back(layout_.has_quotes ? without_doubled_quotes(word) : std::string(word));
           ++wanted;
         }
     }
@@ -377,18 +393,19 @@ class Reader {
 
   /// Reads a row; returns the number of its columns.
   std::size_t read_row(std::string_view line, std::size_t number, Piece& piece) const {
-    Cells cells(line, layout_.separator);
+    Cells cells(line, layout_.separator, layout_.has_quotes);
     std::size_t c = 0;
     std::string_view word;
     for (; cells.more(); ++c) {
       const Role role = c < roles_.size() ? roles_[c] : Role::skipped;
       double value = kMissing;
-      if (role == Role::skipped || (role == Role::carried && piece.has_words[c]) || !cells.number(value)) {
+      if (role == Role::skipped || role == Role::carried || !cells.number(value)) {
         if (!cells.word(word)) {
-          error(piece, number, "a double quote without an end");
+          error(piece, number, "a double quote without an end: add it, or say --quote none");
           return 0;
         }
-        if (role != Role::skipped && !is_number(word, value)) {
+        if (role == Role::carried && !piece.has_words[c]) piece.has_words[c] = is_name_of_digits(word);
+        if (role != Role::skipped && (piece.has_words[c] || !is_number(word, value))) {
           value = kMissing;
           if (const std::string wrong = why_not(word, c, role); !wrong.empty()) {
             // Look for another separator before blaming a word.
@@ -442,8 +459,57 @@ char axis_of(const std::string& name) {
   return l == "x" || l == "y" || l == "z" ? l[0] : '\0';
 }
 
-TextLayout layout_of(std::string_view text, const std::string& file) {
+std::vector<std::pair<std::size_t, std::size_t>> fixed_widths(const std::string& columns) {
+  std::vector<std::pair<std::size_t, std::size_t>> widths;
+  for (const std::string& part : parts_of(columns, ',')) {
+    const std::vector<double> ends = numbers_between(part, '-');
+    if (ends.size() != 2 || !(1 <= ends[0] && ends[0] <= ends[1] && ends[1] <= 1e6)) return {};
+    widths.emplace_back(static_cast<std::size_t>(ends[0]), static_cast<std::size_t>(ends[1]));
+  }
+  return widths;
+}
+
+std::string with_tabs(std::string_view text, const std::vector<std::pair<std::size_t, std::size_t>>& widths) {
+  std::string table;
+  Lines lines(text, 1);
+  for (std::string_view line; lines.next(line); table += '\n') {
+    if (trimmed(line).empty()) continue;
+    for (std::size_t k = 0; k < widths.size(); ++k) {
+      const auto [first, last] = widths[k];
+      if (k > 0) table += '\t';
+      for (const char c : trimmed(line.substr(std::min(first - 1, line.size()), last - first + 1)))
+        table += c == '\t' ? ' ' : c;
+    }
+  }
+  return table;
+}
+
+namespace {
+
+/// True if the next line with a content is a header line that names coordinates.
+bool is_before_header(Lines lines, const TextFormat& format) {
+  std::string_view line;
+  while (lines.next(line)) {
+    line = trimmed(line);
+    if (line.empty()) continue;
+    TextLayout layout;
+    layout.separator = format.separator != '\0' ? format.separator : separator_of(line);
+    const std::vector<std::string> cells = split(line, layout.separator, format.has_quotes);
+    if (!is_header(cells)) return false;
+    set_names(layout, cells);
+    return has_place(layout.names);
+  }
+  return false;
+}
+
+}  // namespace
+
+TextLayout layout_of(std::string_view text, const std::string& file, const TextFormat& format) {
   TextLayout layout;
+  layout.has_quotes = format.has_quotes;
+  const auto separator_in = [&](std::string_view line) {
+    return format.separator != '\0' ? format.separator : separator_of(line);
+  };
   const std::size_t mark = text.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0;
   if (text.find('\n') == text.npos && trimmed(text).find('\r') != text.npos)
     fail(file, 1, "lines end with CR alone: end them with LF, for example by `tr '\\r' '\\n'`");
@@ -459,8 +525,14 @@ TextLayout layout_of(std::string_view text, const std::string& file) {
     }
     const bool is_whole = layout.header_line > 0 || !error_at(content).empty();
     const std::string_view plain = is_whole ? content : trimmed(without_comment(content));
-    if (layout.header_line == 0) layout.separator = separator_of(plain);
-    const std::vector<std::string> cells = split(plain, layout.separator);
+    if (layout.header_line == 0) layout.separator = separator_in(plain);
+    const std::vector<std::string> cells = split(plain, layout.separator, layout.has_quotes);
+    double number = 0;
+    if (!cells.empty() && !is_number(cells[0], number) && !has_place(layout.names) &&
+        is_before_header(lines, format)) {  // a title
+      layout.header_line = 0;
+      continue;
+    }
     if (is_header(cells)) {
       if (layout.header_line > 0)
         fail(file, lines.number(),
@@ -469,8 +541,8 @@ TextLayout layout_of(std::string_view text, const std::string& file) {
                  layout.header_line));
       layout.header_line = lines.number();
       // The names in a header may contain #.
-      layout.separator = separator_of(content);
-      set_names(layout, split(content, layout.separator));
+      layout.separator = separator_in(content);
+      set_names(layout, split(content, layout.separator, layout.has_quotes));
       continue;
     }
     if (double n = 0; layout.header_line == 0 && layout.line_of_count == 0 && cells.size() == 1 &&
@@ -552,8 +624,10 @@ TextRows rows_of(std::string_view text, const std::string& file, const TextLayou
   if (segments == 0) all.segments.clear();
   all.texts.resize(layout.columns);
   std::vector<std::size_t> of_texts;
-  for (std::size_t c = 0; c < layout.columns; ++c)
-    if (has_words[c]) of_texts.push_back(c), all.numbers[c].clear();
+  for (std::size_t c = 0; c < layout.columns; ++c) {
+    if (has_words[c]) all.numbers[c].clear();
+    if (roles[c] == Role::carried) of_texts.push_back(c);
+  }
   if (!of_texts.empty()) reader.read_texts(rows, of_texts, all);
   return all;
 }

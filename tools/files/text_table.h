@@ -1,10 +1,11 @@
 #pragma once
-// Tables in text files, with or without header line, comments and segments of GMT. Columns are separated by
-// blanks, commas, semicolons or tabs.
+// Tables in text files, with or without title, header line, comments and segments of GMT. Columns are
+// separated by blanks, commas, semicolons or tabs, or have fixed widths.
 
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace files {
@@ -14,6 +15,7 @@ struct TextLayout {
   /// `,`, `;` or tab: exactly one between columns; cells may be empty or in double quotes. Blank: any number
   /// of blanks, tabs and commas between columns.
   char separator = ' ';
+  bool has_quotes = true;
   std::size_t columns = 0;
   std::vector<std::string> names;   ///< of the columns; empty: no header
   std::vector<std::string> units;   ///< of the columns: "depth [km]", "depth (km)"; as many as names
@@ -25,19 +27,33 @@ struct TextLayout {
   std::string name(std::size_t column) const;  ///< "mag", or "column3" where columns have no names
 };
 
+/// What the caller says of the format: the separator, or 0, and that a double quote is a character like
+/// others.
+struct TextFormat {
+  char separator = '\0';
+  bool has_quotes = true;
+};
+
 /// Comments begin with #, % or ! at the start of a line, or with # or ! behind numbers if there is no header
 /// line or blanks separate the columns. The comment before the first row can hold the names of columns, if
-/// lon and lat, or x, y and z, are among them. Throws std::runtime_error with `file` and line; so does
-/// rows_of.
-TextLayout layout_of(std::string_view text, const std::string& file);
+/// lon and lat, or x, y and z, are among them. A line before a header line that has them is a title. Throws
+/// std::runtime_error with `file` and line; so does rows_of.
+TextLayout layout_of(std::string_view text, const std::string& file, const TextFormat& format = {});
+
+/// Columns of a text of fixed widths, by their first and last bytes, from 1: "1-11,13-20". Empty: `columns`
+/// is something else.
+std::vector<std::pair<std::size_t, std::size_t>> fixed_widths(const std::string& columns);
+/// These columns of each line, separated by tabs.
+std::string with_tabs(std::string_view text, const std::vector<std::pair<std::size_t, std::size_t>>& widths);
 
 /// What a column is used for. `place`: a coordinate, a finite number. `value`: a number or missing.
-/// `carried`: copied to the output, a number, missing or text.
+/// `carried`: copied to the output, a number, missing or text. Digits that say more than their number are
+/// text: 007, more than 15 digits, 12D3 and 1E2.
 enum class Role : char { skipped, place, value, carried };
 
 struct TextRows {
   std::vector<std::vector<double>> numbers;     ///< of each column that is not skipped; NaN: missing
-  std::vector<std::vector<std::string>> texts;  ///< of each carried column with a word that is not a number
+  std::vector<std::vector<std::string>> texts;  ///< of each carried column, also beside its numbers
   std::vector<std::size_t> lines;               ///< of each row, from 1
   std::vector<double> segments;  ///< number of `>` lines before each row; empty: there are no such lines
 };

@@ -241,10 +241,10 @@ std::string json_text(const std::string& text) {
   return json(text).dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
-/// Row i of the column; `missing` stands for NaN.
+/// Row i of the column; `missing` stands for NaN. `as_written`: numbers as they stand in the input.
 void print_cell(TextWriter& out, const Column& column, std::size_t i, std::string (*text)(const std::string&),
-                const char* missing) {
-  if (column.is_text())
+                const char* missing, bool as_written = false) {
+  if (column.is_text() || (as_written && !column.texts.empty()))
     out.print("{}", text(column.texts[i]));
   else if (std::isnan(column.numbers[i]))
     out.print("{}", missing);
@@ -264,7 +264,7 @@ void write_csv(const OutputFile& file, const Columns& table) {
   for (std::size_t i = 0; i < table[0].size(); ++i) {
     for (std::size_t k = 0; k < table.size(); ++k) {
       if (k > 0) out.print(",");
-      print_cell(out, table[k], i, csv_text, "");
+      print_cell(out, table[k], i, csv_text, "", true);
     }
     out.print("\n");
   }

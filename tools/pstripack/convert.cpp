@@ -92,6 +92,12 @@ void convert(Options& options) {
   // .nc is the suffix of meshes and of nodes: choose by what the input has.
   if (format == files::Format::ugrid && !has_mesh && options.output.to.empty())
     format = files::Format::netcdf;
+  if (nodes.polygons > 0 && !files::holds_nodes(options.output.format))
+    throw std::runtime_error(
+        fmt::format("{}: {} of its faces have more than three corners, which are not divided here: "
+                    "`pstripack triangulate` makes "
+                    "triangles of its nodes, and --to nodes writes these",
+                    nodes.file, nodes.polygons));
   if ((!files::holds_nodes(format) || !options.region.empty()) && !has_mesh)
     throw std::runtime_error(nodes.file + ": holds nodes without triangles: use `pstripack triangulate`");
   add_history(nodes.notes);

@@ -324,6 +324,7 @@ void take_means(Column& column, const std::vector<files::Duplicate>& duplicates)
     double sum = 0;
     for (const double v : group) sum += v;
     column.numbers[first] = sum / static_cast<double>(group.size());
+    column.texts.clear();
     if (column.numbers[first] != std::floor(column.numbers[first])) column.whole = false;
   }
 }

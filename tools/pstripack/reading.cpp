@@ -39,8 +39,15 @@ void add_reading(CLI::App& app, files::ReadOptions& read) {
       "xyz: three columns, any lengths; lonlat: two columns, geodetic latitudes taken as those of a sphere: "
       "up to 0.19 degrees, 21 km, off [by their names or number]");
   app.add_option("--columns", read.columns,
-                 "lon,lat or x,y,z, then other columns to keep: names, or in text numbers [all]")
+                 "lon,lat or x,y,z, then other columns to keep: names, or in text numbers, or first and last "
+                 "characters of "
+                 "fixed widths, 22-30,13-20 [all]")
       ->type_name("NAMES");
+  add_choice(app, "--separator", read.text.separator,
+             {{"tab", '\t'}, {"comma", ','}, {"semicolon", ';'}, {"blank", ' '}},
+             "of the columns of text: tab, comma, semicolon or blank [detected]");
+  add_choice(app, "--quote", read.text.has_quotes, {{"double", true}, {"none", false}},
+             "double: text may stand in double quotes; none: these are characters like others [double]");
   add_choice(app, "--units", read.units, {{"degrees", Units::degrees}, {"radians", Units::radians}},
              "degrees or radians, where the file does not say");
 }

@@ -1,0 +1,419 @@
+#include "files/netcdf_file.h"
+
+#include <fmt/format.h>
+#include <netcdf_mem.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "files/nearest.h"
+#include "lists/limits.h"
+#include "numbers.h"
+#include "parallel/local_nodes.h"
+#include "text_file.h"
+
+namespace files {
+namespace {
+
+using point_sets::excerpt;
+
+/// The header of a file in a classic format: CDF-1, CDF-2 or CDF-5.
+class ClassicHeader {
+ public:
+  /// Throws if the file ends before its last value: libnetcdf takes what is missing as zeros.
+  static void expect_whole(std::istream&& file, const std::string& name) {
+    if (!ClassicHeader(file).is_whole())
+      throw std::runtime_error(name + ": incomplete NetCDF file: it ends before its last value");
+  }
+
+ private:
+  explicit ClassicHeader(std::istream& file) : file_(file) {}
+
+  bool is_whole() {
+    struct Extent {
+      std::uint64_t begin, bytes;
+      bool has_records;
+    };
+    std::vector<Extent> variables;
+    const std::uint64_t version = number(4) - 0x43444600;  // "CDF" and the version
+    if (version != 1 && version != 2 && version != 5) return true;
+    count_size_ = version == 5 ? 8 : 4;
+    const std::uint64_t records = number(count_size_);
+    std::vector<std::uint64_t> lengths;
+    for_each_item([&] { lengths.push_back(number(count_size_)); });
+    skip_attributes();
+    for_each_item([&] {
+      Extent& v = variables.emplace_back(Extent{0, 1, false});
+      const std::uint64_t rank = number(count_size_);
+      for (std::uint64_t d = 0; d < rank && file_; ++d) {
+        const std::uint64_t dimension = number(count_size_),
+                            length = dimension < lengths.size() ? lengths[dimension] : 1;
+        if (length == 0)
+          v.has_records = true;
+        else
+          v.bytes *= length;
+      }
+      skip_attributes();
+      v.bytes *= size_of_type();
+      number(count_size_);  // the size once more
+      v.begin = number(version == 1 ? 4 : 8);
+    });
+    std::uint64_t record = 0, end = 0;
+    const auto with_records =
+        std::count_if(variables.begin(), variables.end(), [](const Extent& v) { return v.has_records; });
+    for (const Extent& v : variables)
+      if (v.has_records) record += with_records == 1 ? v.bytes : padded(v.bytes);
+    for (const Extent& v : variables)
+      if (!v.has_records || records > 0)
+        end = std::max(end, v.begin + v.bytes + (v.has_records ? (records - 1) * record : 0));
+    return file_ && file_.seekg(0, std::ios::end).tellg() >= static_cast<std::streamoff>(end);
+  }
+
+  static std::uint64_t padded(std::uint64_t bytes) { return (bytes + 3) / 4 * 4; }
+  std::uint64_t number(int bytes) {
+    std::uint64_t value = 0;
+    for (; bytes > 0; --bytes) value = value << 8 | static_cast<std::uint64_t>(file_.get() & 0xff);
+    return value;
+  }
+  void skip(std::uint64_t bytes) { file_.ignore(static_cast<std::streamsize>(padded(bytes))); }
+  /// For dimensions, attributes and variables: reads their names, and calls read() for the rest of each.
+  template <class Read>
+  void for_each_item(const Read& read) {
+    number(4);
+    for (std::uint64_t left = number(count_size_); left > 0 && file_; --left) {
+      skip(number(count_size_));
+      read();
+    }
+  }
+  std::uint64_t size_of_type() {
+    constexpr int kSizes[] = {0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
+    return static_cast<std::uint64_t>(kSizes[std::min<std::uint64_t>(number(4), 11)]);
+  }
+  void skip_attributes() {
+    for_each_item([&] {
+      const std::uint64_t size = size_of_type();
+      skip(size * number(count_size_));
+    });
+  }
+
+  std::istream& file_;
+  int count_size_ = 4;
+};
+
+/// The stored numbers of a variable as its type and `_Unsigned` mean them.
+struct Stored {
+  nc_type type;
+  bool is_unsigned, is_reinterpreted;
+
+  Stored(nc_type of, const std::string& attribute) : type(of) {
+    const bool is_signed_type = of == NC_BYTE || of == NC_SHORT || of == NC_INT || of == NC_INT64;
+    is_unsigned = is_signed_type ? attribute == "true" || attribute == "True"
+                                 : !(attribute == "false" || attribute == "False");
+    is_reinterpreted = is_unsigned == is_signed_type;
+  }
+  bool is_integer() const { return type != NC_FLOAT && type != NC_DOUBLE; }
+  bool is_byte() const { return type == NC_BYTE || type == NC_UBYTE; }
+  int bits() const {
+    if (is_byte()) return 8;
+    return type == NC_SHORT || type == NC_USHORT ? 16 : type == NC_INT || type == NC_UINT ? 32 : 64;
+  }
+  double number(double value) const {
+    if (type == NC_FLOAT) return static_cast<double>(static_cast<float>(value));
+    if (!is_integer() || !is_reinterpreted) return value;
+    const double count = std::ldexp(1, bits());
+    if (is_unsigned) return value < 0 ? value + count : value;
+    return value >= count / 2 ? value - count : value;
+  }
+  /// The library's.
+  double fill() const {
+    switch (type) {
+      case NC_SHORT:
+        return NC_FILL_SHORT;
+      case NC_USHORT:
+        return NC_FILL_USHORT;
+      case NC_INT:
+        return NC_FILL_INT;
+      case NC_UINT:
+        return NC_FILL_UINT;
+      case NC_INT64:
+        return static_cast<double>(NC_FILL_INT64);
+      case NC_UINT64:
+        return static_cast<double>(NC_FILL_UINT64);
+      case NC_FLOAT:
+        return static_cast<double>(NC_FILL_FLOAT);
+      default:
+        return NC_FILL_DOUBLE;
+    }
+  }
+};
+
+}  // namespace
+
+std::vector<int> NetcdfVariable::dimensions_of_places() const {
+  std::size_t begin = 0, end = lengths.size();
+  while (begin + 1 < end && lengths[begin] == 1) ++begin;
+  while (begin + 1 < end && lengths[end - 1] == 1) --end;
+  return {dimensions.begin() + static_cast<std::ptrdiff_t>(begin),
+          dimensions.begin() + static_cast<std::ptrdiff_t>(end)};
+}
+
+bool NetcdfVariable::is_of(const std::vector<int>& nodes) const {
+  std::vector<int> own;
+  for (std::size_t d = 0; d < dimensions.size(); ++d)
+    if (std::find(nodes.begin(), nodes.end(), dimensions[d]) != nodes.end())
+      own.push_back(dimensions[d]);
+    else if (lengths[d] != 1)
+      return false;
+  return !nodes.empty() && own == nodes;
+}
+
+NetcdfFile::NetcdfFile(const std::string& name, const std::string& contents, const ReadOptions& options)
+    : name_(name), options_(options) {
+  if (contents.empty()) {
+    ClassicHeader::expect_whole(std::ifstream(name, std::ios::binary), name);
+    check("", nc_open(name.c_str(), NC_NOWRITE, &id_));
+  } else {  // NetCDF takes bytes to read as void*, and does not change them without NC_WRITE
+    ClassicHeader::expect_whole(std::istringstream(contents), name);
+    check("",
+          nc_open_mem(name.c_str(), NC_NOWRITE, contents.size(), const_cast<char*>(contents.data()), &id_));
+  }
+  add_group(id_, "");
+}
+
+NetcdfFile::~NetcdfFile() { nc_close(id_); }
+
+void NetcdfFile::add_group(int group, const std::string& path) {
+  char name[NC_MAX_NAME + 1];
+  int count = 0;
+  check("", nc_inq_nvars(group, &count));
+  for (int id = 0; id < count; ++id) {
+    check("", nc_inq_varname(group, id, name));
+    NetcdfVariable& v = variables_.emplace_back(NetcdfVariable{path + name, group, id});
+    int rank = 0;
+    check(v.path, nc_inq_vartype(group, id, &v.type));
+    check(v.path, nc_inq_varndims(group, id, &rank));
+    v.dimensions.resize(static_cast<std::size_t>(rank));
+    check(v.path, nc_inq_vardimid(group, id, v.dimensions.data()));
+    for (const int dimension : v.dimensions) v.lengths.push_back(length_of(dimension));
+  }
+  check("", nc_inq_grps(group, &count, nullptr));
+  std::vector<int> groups(static_cast<std::size_t>(count));
+  check("", nc_inq_grps(group, &count, groups.data()));
+  for (const int inner : groups) {
+    check("", nc_inq_grpname(inner, name));
+    add_group(inner, path + name + "/");
+  }
+}
+
+void NetcdfFile::fail(const std::string& what) const { throw std::runtime_error(name_ + ": " + what); }
+
+void NetcdfFile::check(const std::string& variable, int status) const {
+  if (status != NC_NOERR)
+    fail((variable.empty() ? "" : "variable " + excerpt(variable) + ": ") + nc_strerror(status));
+}
+
+std::vector<std::string> NetcdfFile::names() const {
+  std::vector<std::string> all;
+  for (const NetcdfVariable& v : variables_) all.push_back(v.path);
+  return all;
+}
+
+const NetcdfVariable* NetcdfFile::find(const std::string& name, const NetcdfVariable* from) const {
+  const std::string word =
+      name.substr(name.find_first_not_of('/') == name.npos ? 0 : name.find_first_not_of('/'));
+  const auto with_path = [&](const std::string& path) -> const NetcdfVariable* {
+    for (const NetcdfVariable& v : variables_)
+      if (v.path == path) return &v;
+    return nullptr;
+  };
+  if (from != nullptr && word == name)
+    for (std::string group = from->path; group.find('/') != group.npos;) {
+      group.resize(group.rfind('/'));
+      if (const NetcdfVariable* const v = with_path(group + "/" + word)) return v;
+    }
+  if (const NetcdfVariable* const v = with_path(word)) return v;
+  const NetcdfVariable* found = nullptr;
+  for (const NetcdfVariable& v : variables_)
+    if (v.name() == word) {
+      if (found != nullptr) return nullptr;
+      found = &v;
+    }
+  return found;
+}
+
+const NetcdfVariable& NetcdfFile::variable(const std::string& name, const NetcdfVariable* from) const {
+  const NetcdfVariable* const found = find(name, from);
+  if (found == nullptr)
+    fail(fmt::format("there is no variable '{}'{}; the file has {}", excerpt(name),
+                     did_you_mean(name, names()), listed(names())));
+  return *found;
+}
+
+std::string NetcdfFile::text(int group, int variable, const char* attribute) const {
+  std::string text;
+  nc_type type = NC_CHAR;
+  std::size_t length = 0;
+  if (nc_inq_att(group, variable, attribute, &type, &length) != NC_NOERR) return text;
+  if (type == NC_CHAR) {
+    text.resize(length);
+    check(attribute, nc_get_att_text(group, variable, attribute, text.data()));
+  } else if (type == NC_STRING && length == 1) {
+    char* string = nullptr;
+    check(attribute, nc_get_att_string(group, variable, attribute, &string));
+    if (string != nullptr) text = string;
+    nc_free_string(1, &string);
+  }
+  while (!text.empty() && (text.back() == '\0' || text.back() == ' ')) text.pop_back();  // of Fortran
+  return text;
+}
+
+std::vector<std::string> NetcdfFile::attributes() const {
+  int count = 0;
+  check("", nc_inq_natts(id_, &count));
+  std::vector<std::string> names;
+  for (int a = 0; a < count; ++a) {
+    char name[NC_MAX_NAME + 1];
+    check("", nc_inq_attname(id_, NC_GLOBAL, a, name));
+    names.emplace_back(name);
+  }
+  return names;
+}
+
+std::vector<double> NetcdfFile::numbers(int group, int variable, const char* attribute) const {
+  nc_type type = NC_CHAR;
+  std::size_t length = 0;
+  if (nc_inq_att(group, variable, attribute, &type, &length) != NC_NOERR) return {};
+  if (type == NC_CHAR || type == NC_STRING) {
+    double value = 0;
+    return point_sets::parse(text(group, variable, attribute), value) ? std::vector{value}
+                                                                      : std::vector<double>{};
+  }
+  std::vector<double> values(length);
+  return nc_get_att_double(group, variable, attribute, values.data()) == NC_NOERR ? values
+                                                                                  : std::vector<double>{};
+}
+
+double NetcdfFile::number(const NetcdfVariable& v, const char* attribute, double otherwise) const {
+  const std::vector<double> found = numbers(v, attribute);
+  return found.size() == 1 ? found[0] : otherwise;
+}
+
+double NetcdfFile::number(const char* attribute, double otherwise) const {
+  const std::vector<double> found = numbers(id_, NC_GLOBAL, attribute);
+  return found.size() == 1 ? found[0] : otherwise;
+}
+
+bool NetcdfFile::is_packed(const NetcdfVariable& v) const {
+  return number(v, "scale_factor", 1) != 1 || number(v, "add_offset", 0) != 0;
+}
+
+std::vector<double> NetcdfFile::values(const NetcdfVariable& v) const {
+  std::vector<std::size_t> start(v.lengths.size()), count = v.lengths;
+  if (is_read_in_parts() && !count.empty()) {
+    start.back() = before(count.back());
+    count.back() = pstripack::slice_begin(count.back(), options_.part + 1, options_.parts) - start.back();
+  }
+  std::size_t size = 1;
+  for (const std::size_t length : count) size *= expect_few(v, length, size);
+  std::vector<double> values(size);
+  check(v.path, nc_get_vara_double(v.group, v.id, start.data(), count.data(), values.data()));
+
+  const Stored stored(v.type, text(v, "_Unsigned"));
+  std::vector<double> missing = numbers(v, "_FillValue");
+  if (missing.empty() && !stored.is_byte()) missing.push_back(stored.fill());
+  for (const double value : numbers(v, "missing_value")) missing.push_back(value);
+  for (double& value : missing) value = stored.number(value);
+
+  const double scale = number(v, "scale_factor", 1), offset = number(v, "add_offset", 0);
+  const bool packed = is_packed(v);
+  std::vector<double> range = numbers(v, "valid_range");
+  nc_type type = v.type;
+  for (const char* const attribute : {"valid_range", "valid_min", "valid_max"})
+    nc_inq_atttype(v.group, v.id, attribute, &type);
+  const bool is_unpacked_range = packed && stored.is_integer() && (type == NC_FLOAT || type == NC_DOUBLE);
+  if (range.size() != 2) range = {number(v, "valid_min", -INFINITY), number(v, "valid_max", INFINITY)};
+  if (!is_unpacked_range)
+    for (double& bound : range) bound = std::isfinite(bound) ? stored.number(bound) : bound;
+  const auto is_out = [&](double value) { return value < range[0] || value > range[1]; };
+
+  for (double& value : values) {
+    value = stored.number(value);
+    if (!std::isfinite(value) || std::find(missing.begin(), missing.end(), value) != missing.end() ||
+        (!is_unpacked_range && is_out(value)))
+      value = std::nan("");
+    else if (packed)  // else -0 would become 0
+      value = value * scale + offset;
+    if (is_unpacked_range && is_out(value)) value = std::nan("");
+  }
+  return values;
+}
+
+std::vector<std::string> NetcdfFile::texts(const NetcdfVariable& v) const {
+  std::size_t size = 1;
+  for (const std::size_t length : v.lengths) size *= expect_few(v, length, size);
+  std::vector<std::string> texts;
+  if (v.type == NC_CHAR) {  // of equal length, padded with zeros or blanks
+    const std::size_t length = std::max<std::size_t>(v.lengths.back(), 1);
+    std::string bytes(size, '\0');
+    check(v.path, nc_get_var_text(v.group, v.id, bytes.data()));
+    for (std::size_t i = 0; i < size; i += length) {
+      std::string text = bytes.substr(i, length);
+      text.resize(std::min(text.size(), text.find('\0')));
+      text.resize(text.find_last_not_of(' ') + 1);
+      texts.push_back(std::move(text));
+    }
+  } else if (v.type == NC_STRING) {
+    std::vector<char*> strings(size);
+    check(v.path, nc_get_var_string(v.group, v.id, strings.data()));
+    for (const char* const string : strings) texts.emplace_back(string == nullptr ? "" : string);
+    nc_free_string(size, strings.data());
+  } else {
+    std::vector<unsigned long long> whole(size);
+    const bool is_unsigned = Stored(v.type, text(v, "_Unsigned")).is_unsigned;
+    check(v.path, v.type == NC_UINT64
+                      ? nc_get_var_ulonglong(v.group, v.id, whole.data())
+                      : nc_get_var_longlong(v.group, v.id, reinterpret_cast<long long*>(whole.data())));
+    const std::vector<double> numbers = values(v);
+    for (std::size_t i = 0; i < size; ++i)
+      texts.push_back(std::isnan(numbers[i]) ? ""
+                      : is_unsigned          ? std::to_string(whole[i])
+                                             : std::to_string(static_cast<long long>(whole[i])));
+  }
+  return texts;
+}
+
+std::size_t NetcdfFile::expect_few(const NetcdfVariable& v, std::size_t rows, std::size_t row) const {
+  constexpr std::size_t most = pstripack::most_nodes<std::int32_t>();
+  if (rows > most / std::max<std::size_t>(row, 1))
+    fail(fmt::format("variable {}: {} times {} values; there can be {} nodes at most", excerpt(v.path), rows,
+                     row, most));
+  return rows;
+}
+
+std::string NetcdfFile::dimension_name(int dimension) const {
+  char name[NC_MAX_NAME + 1];
+  check("", nc_inq_dimname(id_, dimension, name));
+  return excerpt(name);
+}
+
+std::size_t NetcdfFile::length_of(int dimension) const {
+  std::size_t length = 0;
+  check("", nc_inq_dimlen(id_, dimension, &length));
+  return length;
+}
+
+std::string NetcdfFile::shape(const std::string& name, const std::vector<int>& dimensions) const {
+  std::vector<std::string> parts;
+  for (const int dimension : dimensions)
+    parts.push_back(fmt::format("{}={}", dimension_name(dimension), length_of(dimension)));
+  return fmt::format("{}({})", excerpt(name), fmt::join(parts, ", "));
+}
+
+std::size_t NetcdfFile::before(std::size_t n) const {
+  return pstripack::slice_begin(n, options_.part, options_.parts);
+}
+
+}  // namespace files

@@ -1,0 +1,103 @@
+#pragma once
+// NetCDF files open for reading: the variables of all groups, and their values as the attributes tell them
+// (NetCDF User Guide, appendix A; CF 1.11, sections 2.5 and 8.1).
+
+#include <netcdf.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "files/nodes.h"
+
+namespace files {
+
+/// What the header says of a variable.
+struct NetcdfVariable {
+  std::string path;  ///< "lon", or of a group "observations/lon"
+  int group = -1, id = -1;
+  nc_type type = NC_CHAR;
+  std::vector<int> dimensions = {};
+  std::vector<std::size_t> lengths = {};
+
+  std::string name() const { return path.substr(path.rfind('/') + 1); }
+  bool has_numbers() const { return type != NC_CHAR && type <= NC_UINT64; }
+  /// The dimensions without those of length 1, such as WRF's Time, before and after the others; at least one.
+  std::vector<int> dimensions_of_places() const;
+  /// True if the dimensions are those of the nodes, and others of length 1.
+  bool is_of(const std::vector<int>& nodes) const;
+};
+
+/// A NetCDF file. Errors are std::runtime_error: one line with the file and the variable.
+class NetcdfFile {
+ public:
+  /// `contents`: the file, if it came through a pipe; else empty.
+  NetcdfFile(const std::string& name, const std::string& contents, const ReadOptions& options);
+  ~NetcdfFile();
+  NetcdfFile(const NetcdfFile&) = delete;
+  NetcdfFile& operator=(const NetcdfFile&) = delete;
+
+  const ReadOptions& options() const { return options_; }
+  [[noreturn]] void fail(const std::string& what) const;
+
+  const std::vector<NetcdfVariable>& variables() const { return variables_; }
+  std::vector<std::string> names() const;
+  /// The variable with this path, or the only one with this name. An attribute of a variable `from` means the
+  /// nearest: that in the group of `from`, else in the groups around it (CF 1.11, section 2.7). Null: none.
+  const NetcdfVariable* find(const std::string& name, const NetcdfVariable* from = nullptr) const;
+  /// The same; throws if there is none.
+  const NetcdfVariable& variable(const std::string& name, const NetcdfVariable* from = nullptr) const;
+
+  /// An attribute, "" if it is none or no text.
+  std::string text(const NetcdfVariable& v, const char* attribute) const {
+    return text(v.group, v.id, attribute);
+  }
+  /// An attribute of the file.
+  std::string text(const char* attribute) const { return text(id_, NC_GLOBAL, attribute); }
+  double number(const char* attribute, double otherwise) const;
+  std::vector<std::string> attributes() const;
+  /// The numbers of an attribute, also one that is written as a text; empty: there are none.
+  std::vector<double> numbers(const NetcdfVariable& v, const char* attribute) const {
+    return numbers(v.group, v.id, attribute);
+  }
+  double number(const NetcdfVariable& v, const char* attribute, double otherwise) const;
+
+  /// The values: `_Unsigned` applied, then NaN for what is missing or out of the valid range, then scale and
+  /// offset, in double precision. Missing are `_FillValue` or, without it, the library's fill value, except
+  /// of bytes; all numbers of `missing_value`; and what is not finite. The valid range is that of the stored
+  /// numbers, unless only the unpacked ones can be of its type. Ranks that read parts get theirs of the last
+  /// dimension.
+  std::vector<double> values(const NetcdfVariable& v) const;
+  /// True if scale or offset change the values.
+  bool is_packed(const NetcdfVariable& v) const;
+  /// The texts of a variable of characters, which has a dimension more, or of strings; of integers beyond
+  /// 2^53 their digits, and "" for what is missing.
+  std::vector<std::string> texts(const NetcdfVariable& v) const;
+
+  /// Returns `rows`. A header of a few bytes can announce any number of values.
+  std::size_t expect_few(const NetcdfVariable& v, std::size_t rows, std::size_t row) const;
+  std::string dimension_name(int dimension) const;
+  std::size_t length_of(int dimension) const;
+  /// "T(time=12, lat=96)".
+  std::string shape(const std::string& name, const std::vector<int>& dimensions) const;
+
+  bool is_read_in_parts() const { return options_.parts > 1; }
+  /// The number of values that lower ranks read of so many, or of a variable.
+  std::size_t before(std::size_t n) const;
+  std::size_t before(const NetcdfVariable& v) const {
+    return v.lengths.empty() ? 0 : before(v.lengths.back());
+  }
+
+ private:
+  void check(const std::string& variable, int status) const;
+  void add_group(int group, const std::string& path);
+  std::string text(int group, int variable, const char* attribute) const;
+  std::vector<double> numbers(int group, int variable, const char* attribute) const;
+
+  std::string name_;
+  const ReadOptions& options_;
+  std::vector<NetcdfVariable> variables_;
+  int id_ = -1;
+};
+
+}  // namespace files
