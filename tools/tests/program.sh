@@ -1190,7 +1190,7 @@ netcdf_columns)
 
 ranks)
   # shellcheck disable=SC2086  # lists of words on purpose
-  run() { ranks=$1; shift; $MPIRUN -n "$ranks" "$PSTRIPACK" "$@"; }
+  run() { ranks=$1; shift; $MPIRUN -n "$ranks" "$PSTRIPACK-mpi" "$@"; }
   "$PSTRIPACK" -q points random 3000 -o nodes.txt
   head -n 1000 nodes.txt > few.txt  # Hydra buffers at most 64 KB of stdin
   "$PSTRIPACK" -q triangulate nodes.txt -o serial.lists
@@ -1228,19 +1228,27 @@ ranks)
     done
   done
   code=0
-  $MPIRUN -n 1 "$PSTRIPACK" -q triangulate nodes.txt -o a.lists : -n 1 "$PSTRIPACK" -q triangulate nodes.txt -o b.lists 2> err || code=$?
+  $MPIRUN -n 1 "$PSTRIPACK-mpi" -q triangulate nodes.txt -o a.lists : -n 1 "$PSTRIPACK-mpi" -q triangulate nodes.txt -o b.lists 2> err || code=$?
   [ $code = 2 ] && grep -q "the ranks have different command lines" err || fail "exit code $code: $(cat err)"
   [ ! -e a.lists ] && [ ! -e b.lists ] || fail "two command lines, and one was obeyed"
-  # Where pstripack-mpi is not installed, rank 0 works alone.
-  cp "$PSTRIPACK" alone
-  $MPIRUN -n 3 ./alone -q triangulate nodes.txt -o alone.lists 2> err
-  [ "$(cat err)" = "pstripack: no pstripack-mpi is installed: rank 0 works alone, on its threads" ] || fail "$(cat err)"
+  # pstripack itself has no ranks: in a job of several it must be told that it is meant alone.
+  # shellcheck disable=SC2016
+  alone='if [ "${OMPI_COMM_WORLD_RANK:-$PMI_RANK}" = 0 ]; then exec "$@"; fi'
+  code=0
+  timeout 60 $MPIRUN -n 2 sh -c "$alone" sh "$PSTRIPACK" -q triangulate nodes.txt -o alone.lists 2> err || code=$?
+  [ $code = 2 ] && grep -qxF "pstripack: this job has 2 ranks: pstripack-mpi uses them; say --serial, or set PSTRIPACK_SERIAL=1, if each process is meant to work alone" err ||
+    fail "exit code $code: $(cat err)"
+  [ ! -e alone.lists ] || fail "alone.lists was written"
+  timeout 60 $MPIRUN -n 2 sh -c "$alone" sh "$PSTRIPACK" -q --serial triangulate nodes.txt -o alone.lists
+  cmp serial.lists alone.lists
+  rm alone.lists
+  timeout 60 $MPIRUN -n 2 sh -c "PSTRIPACK_SERIAL=1; export PSTRIPACK_SERIAL; $alone" sh "$PSTRIPACK" -q triangulate nodes.txt -o alone.lists
   cmp serial.lists alone.lists
   ;;
 
 scvt_ranks)
   # shellcheck disable=SC2086  # lists of words on purpose
-  run() { ranks=$1; shift; $MPIRUN -n "$ranks" "$PSTRIPACK" -q "$@"; }
+  run() { ranks=$1; shift; $MPIRUN -n "$ranks" "$PSTRIPACK-mpi" -q "$@"; }
   fourteen="--density bump --tolerance 1e-9 --evaluations 14 --every 4 --checkpoint"
   thirty="--density bump --tolerance 1e-9 --evaluations 30"
   # The same bytes for any number of ranks and threads, output and checkpoint, in each kind of file.
@@ -1261,7 +1269,7 @@ scvt_ranks)
   run 5 scvt 4 -o ranks.nodes.nc
   same one.nodes.nc ranks.nodes.nc
   "$PSTRIPACK" scvt 3000 --first levels --evaluations 1 --tolerance 0.01 -o one.off 2> one.err
-  $MPIRUN -n 2 "$PSTRIPACK" scvt 3000 --evaluations 1 --tolerance 0.01 -o ranks.off 2> err
+  $MPIRUN -n 2 "$PSTRIPACK-mpi" scvt 3000 --evaluations 1 --tolerance 0.01 -o ranks.off 2> err
   cmp one.off ranks.off
   grep -q "^pstripack: 3000 generators, 1 evaluations, .*; on 2 ranks$" err || fail "$(cat err)"
   [ "$(grep "cells by sides" err)" = "$(grep "cells by sides" one.err)" ] || fail "another quality: $(cat err)"
@@ -1272,7 +1280,7 @@ scvt_ranks)
   same one.nodes.nc ranks.nodes.nc
   # Limited areas begin with a front on any number of ranks.
   "$PSTRIPACK" scvt --width 300km --region 10,50,10,50 -o one.csv 2> one.err
-  $MPIRUN -n 2 "$PSTRIPACK" scvt --width 300km --region 10,50,10,50 -o ranks.csv 2> err
+  $MPIRUN -n 2 "$PSTRIPACK-mpi" scvt --width 300km --region 10,50,10,50 -o ranks.csv 2> err
   cmp one.csv ranks.csv
   [ "$(grep "cells by sides" err)" = "$(grep "cells by sides" one.err)" ] || fail "another quality: $(cat err)"
   # A checkpoint of three ranks continues to the same bytes on two ranks and on one.
@@ -1287,7 +1295,7 @@ scvt_ranks)
   # So does that of a run that ended because one rank got TERM; it writes its mesh, too.
   rm ranks.nc
   # shellcheck disable=SC2016
-  $MPIRUN -n 3 sh -c 'echo $$ > rank.pid; exec "$@"' sh "$PSTRIPACK" scvt --start front.nodes.nc --density bump --tolerance 1e-12 --evaluations 1e5 --every 1 --checkpoint ranks.nc -o ended.nc 2> err &
+  $MPIRUN -n 3 sh -c 'echo $$ > rank.pid; exec "$@"' sh "$PSTRIPACK-mpi" scvt --start front.nodes.nc --density bump --tolerance 1e-12 --evaluations 1e5 --every 1 --checkpoint ranks.nc -o ended.nc 2> err &
   job=$!
   for _ in $(seq 3000); do [ -e ranks.nc ] && break; sleep 0.02; done
   kill -TERM "$(cat rank.pid)"
