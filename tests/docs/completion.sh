@@ -46,7 +46,7 @@ for tool in "$@"; do
   case $name in
     pstripack)
       is 'plot points' "$tool" p
-      is '--help --quiet --threads --units --version' "$tool" --  # not those of examples
+      is '--help --quiet --serial --threads --units --version' "$tool" --  # not those of examples
       is '--density --density-file' "$tool" scvt -o mesh.nc --dens
       is '' "$tool" plot mesh
       if [ "$kind" = fish ]; then  # complete as at the prompt

@@ -51,7 +51,7 @@ std::string history_of(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word == "--threads") ++i;
-    if (word == "-q" || word == "--quiet" || word.rfind("--threads", 0) == 0) continue;
+    if (word == "-q" || word == "--quiet" || word == "--serial" || word.rfind("--threads", 0) == 0) continue;
     text +=
         word.empty() || word.find_first_of(" \t\n'\"") != word.npos ? fmt::format(" '{}'", word) : " " + word;
   }
@@ -101,6 +101,7 @@ int run(int argc, char** argv) {
   app.add_option("--threads", global().threads, "number of threads [all processors]")
       ->type_name("NUMBER")
       ->check(CLI::Range(1, 4096).description(""));
+  add_serial(app);
   Command chosen;
   add_triangulate(app, chosen);
   add_voronoi(app, chosen);

@@ -1,22 +1,16 @@
+// pstripack has no MPI: this process works alone.
+
 #include "pstripack/ranks.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdlib>
-#include <filesystem>
 
 #include "base/environment.h"
-#include "base/system.h"
 
 namespace program {
 namespace {
-
-/// The number of ranks and the own rank, from the environment that the launcher sets. Under Slurm with PMIx,
-/// Slurm's variable has the number.
-struct Launched {
-  int size = 1, rank = 0;
-};
 
 class Alone final : public Ranks {
  public:
@@ -29,31 +23,29 @@ class Alone final : public Ranks {
   pstripack::SingleProcess process_;
 };
 
-Launched launched() {
-  using pstripack::environment_variable;
-  constexpr const char* kVariables[][2] = {{"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"},
-                                           {"PMI_SIZE", "PMI_RANK"},
-                                           {"SLURM_STEP_NUM_TASKS", "PMIX_RANK"}};
-  for (const auto& [name_of_size, name_of_rank] : kVariables) {
-    const char* const size = environment_variable(name_of_size);
-    const char* const rank = environment_variable(name_of_rank);
-    if (size != nullptr && rank != nullptr) return {std::atoi(size), std::atoi(rank)};
-  }
-  return {};
+/// From the environment that launchers set: Open MPI, MPICH and Intel, Slurm.
+int ranks_of_job() {
+  for (const char* const name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"})
+    if (const char* const size = pstripack::environment_variable(name)) return std::atoi(size);
+  return 1;
 }
 
 }  // namespace
 
-int on_rank_0(int, char** argv, const std::function<int()>& work) {
-  const Launched here = launched();
-  if (here.size > 1) {
-    const std::filesystem::path self = pstripack::path_of_this_program();
-    execv((self.parent_path() / "pstripack-mpi").c_str(), argv);  // returns only if it failed
-    if (here.rank > 0) return 0;
-    fmt::print(stderr, "pstripack: no pstripack-mpi is installed: rank 0 works alone, on its threads\n");
-  }
-  return work();
+void add_serial(CLI::App& app) {
+  const CLI::Option* const serial =
+      app.add_flag("--serial", "work alone, also where a job has several ranks")->envname("PSTRIPACK_SERIAL");
+  app.final_callback([serial] {
+    const int ranks = ranks_of_job();
+    if (ranks > 1 && (serial->empty() || !serial->as<bool>()))
+      throw CLI::ValidationError(
+          fmt::format("this job has {} ranks: pstripack-mpi uses them; say --serial, or set "
+                      "PSTRIPACK_SERIAL=1, if each process is meant to work alone",
+                      ranks));
+  });
 }
+
+int on_rank_0(int, char**, const std::function<int()>& work) { return work(); }
 
 void on_all_ranks(const std::function<void(Ranks&)>& body) {
   Alone alone;

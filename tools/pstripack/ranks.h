@@ -1,6 +1,6 @@
 #pragma once
-// pstripack under mpirun: rank 0 executes the command and the others help to triangulate, or all ranks
-// execute it together.
+// Who executes a command. pstripack (ranks.cpp): this process alone. pstripack-mpi (ranks_mpi.cpp): rank 0,
+// while the others help to triangulate, or all ranks together.
 
 #include <functional>
 #include <memory>
@@ -8,11 +8,17 @@
 #include "parallel/communicator.h"
 #include "scvt/evaluator.h"
 
+namespace CLI {
+class App;
+}
+
 namespace program {
 
-/// Runs work() on rank 0; returns its exit code on every rank. In `pstripack` (ranks.cpp), which has no MPI:
-/// replaces the program by pstripack-mpi if there are several ranks, else this process is rank 0. In
-/// `pstripack-mpi` (ranks_mpi.cpp): collective.
+/// pstripack: adds --serial. In a job of several ranks parsing fails without it: the processes would all do
+/// the same. pstripack-mpi: nothing.
+void add_serial(CLI::App& app);
+
+/// Runs work() on rank 0; returns its exit code on every rank. Collective.
 int on_rank_0(int argc, char** argv, const std::function<int()>& work);
 
 /// All ranks, or this process alone if there is no MPI.

@@ -100,6 +100,8 @@ bool have_one_command_line(MpiCommunicator& ranks, int argc, char** argv) {
 
 }  // namespace
 
+void add_serial(CLI::App&) {}
+
 int on_rank_0(int argc, char** argv, const std::function<int()>& work) {
   int provided = 0, code = kFailed;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);

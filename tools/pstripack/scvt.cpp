@@ -157,8 +157,7 @@ void check_memory(double generators) {
   if (most > 0 && bytes > most)
     throw std::runtime_error(
         fmt::format("{:.0f} generators need about {:.3g} GB, this machine has {:.3g} GB: take fewer, with "
-                    "widths {:.2g} times as "
-                    "wide, or ranks on several machines (mpirun)",
+                    "widths {:.2g} times as wide, or pstripack-mpi on several machines",
                     generators, bytes / 1e9, most / 1e9, std::sqrt(bytes / most)));
 }
 

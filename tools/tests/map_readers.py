@@ -129,10 +129,6 @@ def check_csv(name, rows):
     run("convert", table, "-o", FOLDER / "once.csv")
     run("convert", FOLDER / "once.csv", "-o", FOLDER / "twice.csv")
     assert (FOLDER / "once.csv").read_bytes() == (FOLDER / "twice.csv").read_bytes()
-    run("points", "random", 50, "-o", FOLDER / "vectors.txt")
-    run("convert", FOLDER / "vectors.txt", "-o", FOLDER / "vectors.csv")
-    run("convert", FOLDER / "vectors.csv", "--coordinates", "xyz", "-o", FOLDER / "again.txt")
-    assert (FOLDER / "vectors.txt").read_bytes() == (FOLDER / "again.txt").read_bytes()
 
 
 def check_gmt(name, rows):

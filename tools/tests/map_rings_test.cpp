@@ -392,35 +392,6 @@ TEST(cells, fill_a_region_whose_parallel_leads_through_a_corner) {
   EXPECT_NEAR(sum(areas(cells)), 360 / kDegree * (1 - std::sqrt(0.5)), 2e-5);
 }
 
-TEST(cells, of_a_region_are_those_of_the_nearest_nodes) {
-  const Mesh mesh = triangulate(point_sets::make("random", 40));
-  const Faces all = cells_of(mesh);
-  point_sets::Random random(5);
-  for (const auto& [region, what] : kRegions) {
-    const Faces cells = clipped_to_region(all, region);
-    const MapLines lines(cells);
-    std::vector<std::vector<MapRing>> maps;
-    for (std::size_t f = 0; f < cells.size(); ++f) maps.push_back(lines.polygons(f));
-    for (int k = 0; k < 100; ++k) {
-      const double lon = wrapped(random.uniform(region.west, region.east)),
-                   lat = random.uniform(region.south, region.north);
-      const Point p = point_sets::from_degrees(lon, lat);
-      std::vector<double> near;
-      for (const Point& node : mesh.points) near.push_back(dot(node, p));
-      std::vector<double> sorted = near;
-      std::sort(sorted.rbegin(), sorted.rend());
-      if (sorted[0] - sorted[1] < 1e-4)
-        continue;  // too close to the border: straight lines are not exactly arcs
-      std::vector<std::size_t> found;
-      for (std::size_t f = 0; f < cells.size(); ++f)
-        for (const MapRing& ring : maps[f])
-          if (holds(ring, lon, lat)) found.push_back(cells.node_of(f));
-      ASSERT_EQ(found.size(), 1u) << what << ' ' << lon << ' ' << lat;
-      EXPECT_EQ(near[found[0]], sorted[0]) << what;
-    }
-  }
-}
-
 TEST(cells, are_several_pieces_where_a_region_cuts_them_so) {
   const Mesh mesh = triangulate(point_sets::make("icosahedral", 12));
   const Faces cells = clipped_to_region(cells_of(mesh), {0, 359, -90, 90});

@@ -52,23 +52,6 @@ def check_ugrid(nodes, mesh_file, cells_file):
         assert cells.sizes["mesh_nodes"] == TRIANGLES
 
 
-def check_mpas(nodes, file):
-    with netCDF4.Dataset(file) as mesh:
-        assert mesh.on_a_sphere.strip() == "YES" and mesh.sphere_radius == 1
-        assert (len(mesh.dimensions["nCells"]), len(mesh.dimensions["nVertices"])) == (N, TRIANGLES)
-        cells, vertices = (np.stack([mesh[axis + of][:] for axis in "xyz"], axis=1) for of in ("Cell", "Vertex"))
-        assert np.allclose(cells, nodes, rtol=0, atol=1e-15)
-        triangles = mesh["cellsOnVertex"][:] - 1
-        assert (signed_volumes(cells, triangles) > 0).all()
-        distances = np.linalg.norm(cells[triangles] - vertices[:, None, :], axis=2)
-        assert np.allclose(distances, distances[:, :1], rtol=0, atol=1e-13)  # a vertex is a circumcentre
-        for of, points in (("Cell", cells), ("Vertex", vertices)):
-            lon, lat = mesh["lon" + of][:], mesh["lat" + of][:]
-            assert lon.min() >= 0 and lon.max() < 2 * math.pi
-            assert np.allclose(unit_vectors(np.degrees(lon), np.degrees(lat)), points, rtol=0, atol=1e-14)
-        assert (mesh["meshDensity"][:] == 1).all()
-
-
 def check_scrip(nodes, file):
     with netCDF4.Dataset(file) as grid:
         assert grid["grid_dims"][:].tolist() == [N] and (grid["grid_imask"][:] == 1).all()
@@ -209,28 +192,6 @@ def check_field(nodes):
         assert (points["value"].values[nodes[:, 2] > 0.1] == 280 + north[:, 2]).all()
 
 
-def check_regions():
-    """Cells of a region across the dateline, and grids of nodes there and around the globe."""
-    run("voronoi", FOLDER / "nodes.txt", "--clip-to", "170,-170,25,50", "-o", FOLDER / "region.nc")
-    area = math.radians(20) * (math.sin(math.radians(50)) - math.sin(math.radians(25)))
-    with xarray.open_dataset(FOLDER / "region.nc") as cells:
-        assert abs(cells["area"].values.sum() - area) < 1e-6
-        assert abs(np.abs(cells["mesh_node_lon"].values) - 175).max() <= 5
-        assert (cells["mesh_node_lat"].values.min(), cells["mesh_node_lat"].values.max()) == (25, 50)
-    run("voronoi", FOLDER / "nodes.txt", "--clip-to", "170,-170,25,50", "-o", FOLDER / "region.scrip.nc")
-    with netCDF4.Dataset(FOLDER / "region.scrip.nc") as grid:
-        assert abs(grid["grid_area"][:].sum() - area) < 1e-6
-    for region, lon, lat in (("0,360,-90,90", np.arange(0, 360, 5), np.arange(-90, 91, 5)),
-                             ("170,-170,25,50", np.arange(170, 191, 5), np.arange(25, 51, 5))):
-        run("interpolate", FOLDER / "values.txt", "--registration", "node", "--grid-step", 5, "--box", region, "-o",
-            FOLDER / "grid.nc")
-        with xarray.open_dataset(FOLDER / "grid.nc") as grid:
-            assert (grid.lon.values == lon).all() and (grid.lat.values == lat).all()
-            known = grid["value"].sel(lat=lat[lat > 10])
-            assert np.abs(known.values - 280 - np.sin(np.radians(known.lat.values))[:, None]).max() < 0.01
-            assert len(np.unique(grid["value"].sel(lat=90))) == 1 if 90 in lat else True
-
-
 def check_scvt():
     run("scvt", 100, "--density", "bump", "--evaluations", 5, "-o", FOLDER / "scvt.mpas.nc")
     run("scvt", 100, "--density", "bump", "--evaluations", 5, "--well-centred", "-o", FOLDER / "scvt.nc")
@@ -282,12 +243,11 @@ def check_weights():
 FOLDER.mkdir(parents=True, exist_ok=True)
 run("points", "icosahedral", N, "-o", FOLDER / "nodes.txt")
 nodes = np.loadtxt(FOLDER / "nodes.txt")
-for suffix in ("nc", "mpas.nc", "vtu", "off", "msh"):
+for suffix in ("nc", "vtu", "off", "msh"):
     run("triangulate", FOLDER / "nodes.txt", "-o", FOLDER / f"mesh.{suffix}")
 for suffix in ("nc", "scrip.nc", "esmf.nc"):
     run("voronoi", FOLDER / "nodes.txt", "-o", FOLDER / f"cells.{suffix}")
 check_ugrid(nodes, FOLDER / "mesh.nc", FOLDER / "cells.nc")
-check_mpas(nodes, FOLDER / "mesh.mpas.nc")
 check_scrip(nodes, FOLDER / "cells.scrip.nc")
 check_esmf(nodes, FOLDER / "cells.esmf.nc")
 check_edges()
@@ -299,7 +259,6 @@ run("voronoi", FOLDER / "cube.txt", "-o", FOLDER / "cube.vtu")
 assert sum(len(block) for block in meshio.read(FOLDER / "cube.vtu").cells) == 96
 check_field(nodes)
 check_columns(nodes)
-check_regions()
 check_scvt()
 check_weights()
 print("all files are as they should be")

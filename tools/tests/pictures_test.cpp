@@ -104,31 +104,6 @@ TEST(lonlat, faces_cover_a_part_of_the_map_once) {
     }
 }
 
-TEST(lonlat, a_triangle_around_a_pole_is_all_that_is_above_it) {
-  for (const double sign : {1.0, -1.0}) {
-    std::vector<Point> triangle;
-    for (const double lon : {0.0, 120.0, 240.0}) triangle.push_back(point_sets::from_degrees(lon, sign * 60));
-    if (sign < 0) std::reverse(triangle.begin(), triangle.end());
-    const LonLat map({30, 0}, 90, kPaper);
-    double area = 0;
-    for (const Outline& part : map.polygon(triangle)) {
-      area += area_of(part);
-      EXPECT_TRUE(std::any_of(part.begin(), part.end(), [&](const Place& p) {
-        return std::fabs(p.y - (sign > 0 ? map.frame().top : map.frame().bottom)) < 1e-9;
-      }));
-    }
-    // Between its sides and the pole: 60 degrees at the corners, tan(lat) = tan(60)/cos(60) in between.
-    double expected = 0;
-    constexpr int kSteps = 20000;
-    for (int i = 0; i < kSteps; ++i) {
-      const double off = (60 - 120 * (i + 0.5) / kSteps) * kPi / 180;  // from the middle of a side
-      const double lat = std::atan(std::tan(kPi / 3) / std::cos(kPi / 3) * std::cos(off)) * 180 / kPi;
-      expected += 3 * (90 - lat) * 120 / kSteps;
-    }
-    EXPECT_NEAR(area / 4, expected, 0.001 * expected);
-  }
-}
-
 TEST(lonlat, a_corner_at_a_pole_is_a_line_and_an_arc_over_a_pole_ends_there) {
   const LonLat map({0, 0}, 90, kPaper);
   const std::vector<Point> triangle{
@@ -232,18 +207,7 @@ TEST(views, name_their_spots) {
   EXPECT_EQ(name_of({540, 0}), "180° 0°");
 }
 
-// ---- measures, scales, colours ----
-
-TEST(measures, areas_of_triangles_add_up_to_the_sphere_and_small_ones_keep_their_digits) {
-  const Mesh mesh = mesh_of_family("variable", 2000);
-  const auto polygons = polygons_of(files::triangle_faces(mesh));
-  double sum = 0;
-  for (const auto& t : polygons) sum += files::triangle_area(t[0], t[1], t[2]);
-  EXPECT_NEAR(sum, 4 * kPi, 1e-10);
-  constexpr double kSmall = 1e-9;
-  EXPECT_NEAR(files::triangle_area({1, 0, 0}, {1, kSmall, 0}, {1, 0, kSmall}) / (kSmall * kSmall / 2), 1,
-              1e-6);
-}
+// ---- scales, colours ----
 
 TEST(scale, has_round_ticks_in_its_range_that_are_labelled_with_their_values) {
   for (const auto& values : std::vector<std::vector<double>>{{0.123, 0.127},
@@ -505,14 +469,6 @@ TEST(mesh_picture, marks_the_boundary_of_a_part_of_the_sphere) {
       1u);
 }
 
-TEST(mesh_picture, shows_cells_that_are_lunes) {
-  const Mesh mesh = files::triangulate({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
-  MeshOptions options;
-  EXPECT_NO_THROW(parsed(mesh_picture(mesh, options)));
-  options.what = MeshOptions::What::cells;
-  EXPECT_NO_THROW(parsed(mesh_picture(mesh, options)));
-}
-
 TEST(mesh_picture, of_too_many_nodes_in_view_says_how_to_zoom) {
   const Mesh mesh = mesh_of_family("fibonacci", 2 * kMostNodesInView + 2000);
   MeshOptions options;
@@ -632,13 +588,6 @@ TEST(path, is_exact_to_hundredths) {
   path.close();
   path.dot({1, 2});
   EXPECT_EQ(path.data(), "M12.35 -7l1.15 -0.1ZM1 2h0");
-}
-
-TEST(kinds, are_known_by_their_suffix) {
-  EXPECT_EQ(kind_of("a.svg"), Kind::svg);
-  EXPECT_EQ(kind_of("a.b.png"), Kind::png);
-  EXPECT_FALSE(kind_of("a.gif"));
-  EXPECT_FALSE(kind_of(".svg"));
 }
 
 }  // namespace
