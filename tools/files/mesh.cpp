@@ -326,7 +326,7 @@ std::size_t Faces::most_corners() const {
 
 Faces triangle_faces(const Mesh& mesh) {
   Faces faces = faces_of(mesh.points, triangles_to_write(mesh));
-  faces.with_edges = mesh.with_edges;
+  faces.variant = mesh.variant;
   return faces;
 }
 

@@ -15,6 +15,12 @@
 
 namespace files {
 
+/// What the caller chooses of a format.
+struct Variant {
+  bool edges = false;      ///< UGRID: also the edges
+  bool clockwise = false;  ///< GeoJSON: rings turn clockwise
+};
+
 /// Which rows of a table this process holds. The processes write their rows one after another, in the order
 /// of ranks.
 struct Share {
@@ -32,9 +38,9 @@ struct Mesh {
   Columns columns;                   ///< values of each node
   std::vector<std::int32_t> layers;  ///< of each node in a limited area (limited_area.h); empty: none
   Notes notes;
-  double radius = 1;        ///< of the sphere in MPAS files
-  bool with_edges = false;  ///< UGRID files also get the edges
-  double longest = 0;       ///< radians: triangles with a longer side are no faces; 0: all are
+  double radius = 1;  ///< of the sphere in MPAS files
+  Variant variant = {};
+  double longest = 0;  ///< radians: triangles with a longer side are no faces; 0: all are
   std::vector<std::int32_t> list, lptr, lend;
   std::int32_t lnew = 0;
 
@@ -109,7 +115,7 @@ struct Faces {
   Columns columns_of_points, columns_of_faces;
   Columns columns_of_parts;  ///< of faces cut at polygons: add_columns() makes them columns of the faces
   Share share_of_points, share_of_faces;
-  bool with_edges = false;  ///< UGRID files also get the edges; all faces must be here
+  Variant variant = {};  ///< with the edges, all faces must be here
 
   std::size_t size() const { return begin.size() - 1; }
   std::size_t node_of(std::size_t f) const { return nodes.empty() ? f : nodes[f]; }

@@ -54,7 +54,7 @@ void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<P
   };
   set_role(add_corners(out, "mesh_face_nodes", {n_faces, corners}, faces, faces.corner),
            "face_node_connectivity", "mesh_face_nodes");
-  if (faces.with_edges) {
+  if (faces.variant.edges) {
     edges = edges_of(faces);
     const int n_edges = out.dimension("mesh_edges", edges.nodes.size() / 2),
               two = out.dimension("mesh_two", 2);

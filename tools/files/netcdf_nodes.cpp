@@ -572,11 +572,17 @@ void read_notes(const File& file, Notes& notes) {
 
 }  // namespace
 
+std::vector<std::string> netcdf_variables(const std::string& file) {
+  const ReadOptions options;
+  return File(file, "", options).names();
+}
+
 Nodes read_netcdf(const std::string& name, const ReadOptions& options, const std::string& contents) {
   const File file(name, contents, options);
   Nodes nodes;
   nodes.file = name;
   nodes.kind = "NetCDF";
+  nodes.variables = file.names();
   Places places;
   Names wanted = words_of(options.columns, ',');
   const std::string value = options.with_values ? options.variable : "";

@@ -165,10 +165,12 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
             "and --variable, or --columns",
             layout.columns));
       if (!has_value && layout.columns != 2 && layout.columns != 3)
-        throw std::runtime_error(fmt::format(
-            "{}:{}: expected 'lon lat' or 'x y z', found {} number{}{}", file, layout.line, layout.columns,
-            layout.columns == 1 ? "" : "s",
-            layout.columns == 1 ? "" : ": say --coordinates lonlat or xyz, or choose --columns 1,2, or of fixed widths 22-30,13-20"));
+        throw std::runtime_error(
+            fmt::format("{}:{}: expected 'lon lat' or 'x y z', found {} number{}{}", file, layout.line,
+                        layout.columns, layout.columns == 1 ? "" : "s",
+                        layout.columns == 1 ? ""
+                                            : ": say --coordinates lonlat or xyz, or choose --columns 1,2, "
+                                              "or of fixed widths 22-30,13-20"));
       columns = is_third ? 2 : layout.columns - (has_value ? 1 : 0);
       choice.is_guess = options.lengths_decide && !has_value && columns == 3;
     }
@@ -339,8 +341,8 @@ void read_raw(Nodes& nodes, std::string_view bytes, const ReadOptions& options) 
   nodes.kind += ", x y z";
 }
 
-/// OFF: comments behind #, the word OFF, the counts of vertices, faces and edges, vertices `x y z`, faces `count corner...` with
-/// corners from 0.
+/// OFF: comments behind #, the word OFF, the counts of vertices, faces and edges, vertices `x y z`, faces
+/// `count corner...` with corners from 0.
 void read_off(Nodes& nodes, std::string text, const ReadOptions& options) {
   nodes.kind = "OFF";
   for (std::size_t begin = text.find('#'); begin != text.npos; begin = text.find('#', begin))
@@ -575,6 +577,7 @@ Nodes read(const std::string& file, const ReadOptions& options) {
 }
 
 #ifndef HAVE_NETCDF
+std::vector<std::string> netcdf_variables(const std::string&) { return {}; }
 Nodes read_netcdf(const std::string& file, const ReadOptions&, const std::string&) {
   throw std::runtime_error(file + ": a NetCDF file, which this build cannot read: build with libnetcdf-dev");
 }

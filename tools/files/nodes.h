@@ -78,6 +78,7 @@ struct Nodes {
   /// Of an MPAS mesh with a boundary, if requested: the vertices of all triangles, of which some lack
   /// corners: -1 stands for them.
   std::vector<Point> vertices;
+  std::vector<std::string> variables;  ///< all of a NetCDF file
   std::size_t polygons = 0;  ///< faces of more than three corners, which are not read; nor are the triangles
   double radius = 1;         ///< of the sphere, if the file says it
 
@@ -118,6 +119,8 @@ std::size_t first_beyond_pole(const Angles& angles, std::size_t n);
 /// exchanges longitudes and latitudes; empty: none does.
 std::string hint_beyond_pole(const Angles& angles, std::size_t n, const std::string& to_exchange);
 
+/// The names of all variables of a NetCDF file.
+std::vector<std::string> netcdf_variables(const std::string& file);
 /// `contents`: the file, if it came through a pipe; empty: read `file`.
 Nodes read_netcdf(const std::string& file, const ReadOptions& options, const std::string& contents = "");
 

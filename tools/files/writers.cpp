@@ -312,11 +312,16 @@ void write_geometry(TextWriter& out, const std::string& kind, const std::vector<
   out.print(is_one ? "}}" : "]}}");
 }
 
-/// Counterclockwise polygons, cut at the dateline; null if all corners coincide.
+/// Counterclockwise polygons, unless the variant says otherwise, cut at the dateline; null if all corners
+/// coincide.
 void write_geojson(const OutputFile& file, const Faces& faces, const Notes& notes) {
   const MapLines lines(faces);
-  write_features(file, table_of(faces), notes,
-                 [&](TextWriter& out, std::size_t f) { write_geometry(out, "Polygon", lines.polygons(f)); });
+  write_features(file, table_of(faces), notes, [&](TextWriter& out, std::size_t f) {
+    std::vector<MapRing> polygons = lines.polygons(f);
+    for (MapRing& ring : polygons)
+      if (faces.variant.clockwise) std::reverse(ring.begin(), ring.end());
+    write_geometry(out, "Polygon", polygons);
+  });
 }
 
 /// GMT's multi-segment files: one segment per polygon, with values as in its OGR/GMT format.

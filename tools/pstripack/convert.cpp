@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "files/mpas_mesh.h"
+#include "files/nearest.h"
 #include "pstripack/options.h"
 #include "pstripack/progress.h"
 
@@ -73,6 +74,18 @@ void write_cut(const files::OutputFile& file, const Output& output, const files:
        layers_in(nodes)});
 }
 
+/// Says which variables of a NetCDF file, those of init_atmosphere for example, the mesh made of it lacks.
+void tell_lost_variables(const files::Nodes& nodes, const std::string& mesh) {
+  if (nodes.variables.empty()) return;
+  const std::vector<std::string> kept = files::netcdf_variables(mesh);
+  std::vector<std::string> lost;
+  for (const std::string& name : nodes.variables)
+    if (std::find(kept.begin(), kept.end(), name) == kept.end()) lost.push_back(name);
+  if (!lost.empty())
+    say(fmt::format("{}: an MPAS mesh has no place for {}: not in {}", nodes.file, files::listed(lost),
+                    mesh));
+}
+
 void convert(Options& options) {
   options.output.choose();
   options.input.read.with_columns = options.input.read.with_boundary = true;
@@ -119,6 +132,8 @@ void convert(Options& options) {
     }
     file.commit();
   });
+  if (format == files::Format::mpas && options.output.file != "-")
+    tell_lost_variables(nodes, options.output.file);
   progress.finish(fmt::format("{} ({}), {}", counted(nodes.points.size(), "node"), nodes.kind,
                               counted(nodes.triangles.size(), "triangle")));
 }
@@ -133,7 +148,7 @@ void add_convert(CLI::App& app, Command& chosen) {
   add_duplicates(*sub, options->input);
   add_output(*sub, options->output, true);
   add_radius(*sub, options->output.radius, kRadiusOfMpas);
-  add_edges(*sub, options->output);
+  add_variant(*sub, options->output);
   add_limited_area(*sub, options->region);
   sub->callback([=, &chosen] { chosen = [=] { convert(*options); }; });
 }

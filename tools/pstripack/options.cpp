@@ -246,8 +246,10 @@ CLI::Option* add_radius(CLI::App& app, double& radius, const char* text) {
       ->check(number_from(kAbove0, kLargest, "a number of metres above 0"));
 }
 
-void add_edges(CLI::App& app, Output& output) {
-  app.add_flag("--edges", output.edges, "UGRID: also the edges, with their nodes and faces");
+void add_variant(CLI::App& app, Output& output) {
+  app.add_flag("--edges", output.variant.edges, "UGRID: also the edges, with their nodes and faces");
+  add_choice(app, "--rings", output.variant.clockwise, {{"counterclockwise", false}, {"clockwise", true}},
+             "GeoJSON: turn of the rings; clockwise for D3 and globe.gl [counterclockwise, as RFC 7946]");
 }
 
 void Output::choose(std::optional<files::Format> otherwise) {
@@ -266,7 +268,9 @@ void Output::choose(std::optional<files::Format> otherwise) {
   format = *found;
   if (radius > 0 && format != files::Format::mpas)
     throw CLI::ValidationError("--radius", "only MPAS meshes have a radius: --to mpas");
-  if (edges && format != files::Format::ugrid)
+  if (variant.clockwise && format != files::Format::geojson)
+    throw CLI::ValidationError("--rings", "only GeoJSON has rings: --to geojson");
+  if (variant.edges && format != files::Format::ugrid)
     throw CLI::ValidationError("--edges",
                                "only UGRID meshes have edges, as MPAS meshes always do: --to ugrid");
 }
@@ -447,7 +451,7 @@ std::runtime_error no_mesh_of(const Nodes& nodes, const files::NoMesh& why) {
 void write_mesh(const files::OutputFile& file, const Output& output, files::Mesh& mesh) {
   if (!mesh.layers.empty() && output.format != files::Format::mpas) mesh = files::cut(mesh);
   if (output.radius > 0) mesh.radius = output.radius;
-  mesh.with_edges = output.edges;
+  mesh.variant = output.variant;
   write_mesh(file, output.format, mesh);
   if (output.format != files::Format::mpas || !mesh.has_boundary()) return;
   const auto left_out = std::count_if(mesh.lend.begin(), mesh.lend.end(), [&](std::int32_t end) {

@@ -76,8 +76,8 @@ void add_duplicates(CLI::App& app, Input& input);
 struct Output {
   std::string file = "-", to;
   files::Format format = files::Format::xyz;
-  double radius = 0;   ///< of the sphere in MPAS files, metres; 0: not given
-  bool edges = false;  ///< UGRID files also get the edges
+  double radius = 0;  ///< of the sphere in MPAS files, metres; 0: not given
+  files::Variant variant = {};
 
   /// Sets `format` by --to, else by the suffix, else to `otherwise`. Throws CLI::ValidationError if none
   /// applies.
@@ -90,7 +90,8 @@ constexpr double kAbove0 = std::numeric_limits<double>::denorm_min(),
                  kLargest = std::numeric_limits<double>::max();
 constexpr auto kRadiusOfMpas = "of the sphere in an MPAS mesh [that of the input, else 1]";
 CLI::Option* add_radius(CLI::App& app, double& radius, const char* text);
-void add_edges(CLI::App& app, Output& output);
+/// --edges, --rings.
+void add_variant(CLI::App& app, Output& output);
 
 /// Reads nodes, without those whose place is missing if the options say so; throws unless they have
 /// directions, and lie on one sphere or --coordinates xyz is given.

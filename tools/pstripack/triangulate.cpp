@@ -113,7 +113,7 @@ void voronoi(Options& options) {
                           : options.clip_to_hull ? "no part of the hull of the nodes lies in the box"
                                                  : "the box is smaller than 1e-10 degrees: make it larger");
     files::add_columns(faces, mesh);
-    faces.with_edges = options.output.edges;
+    faces.variant = options.output.variant;
     write_faces(file, options.output.format, faces, mesh.notes);
     return counted(faces.size(), "cell") + ", " + counted(faces.points.size(), "corner");
   });
@@ -126,7 +126,7 @@ std::shared_ptr<Options> add(CLI::App& app, const char* name, const char* text, 
   add_input(*sub, options->input);
   add_duplicates(*sub, options->input);
   add_output(*sub, options->output, true);
-  add_edges(*sub, options->output);
+  add_variant(*sub, options->output);
   sub->callback([=, &chosen] { chosen = [=] { command(*options); }; });
   return options;
 }

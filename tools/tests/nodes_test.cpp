@@ -240,6 +240,34 @@ TEST(tables, are_separated_by_commas_semicolons_tabs_or_blanks) {
   EXPECT_EQ(quoted.columns.at(0).texts.at(0), "5 km S of \"A\", #2");
 }
 
+TEST(tables, keep_their_texts) {
+  const Nodes nodes = read_bytes(
+      "Stations of the network, 2024\n"
+      "lon,lat,id,wmo,big,e,depth\n1,2,7,010010,1,1.0E2,1.50\n3,4,007,02,17179869184000001,1E2,NA\n5,"
+      "\xE2\x88\x92"
+      "6,8,3,2,3,2\n",
+      with_columns(""));
+  EXPECT_EQ(nodes.given.lat, (std::vector<double>{2, 4, -6}));  // by a minus of typography
+  ASSERT_EQ(nodes.columns.size(), 5u);
+  for (const std::size_t k : {0, 1, 2, 3}) EXPECT_TRUE(nodes.columns[k].is_text()) << k;
+  EXPECT_EQ(nodes.columns[2].texts[1], "17179869184000001");
+  EXPECT_EQ(nodes.columns[4].numbers[0], 1.5);
+  EXPECT_EQ(nodes.columns[4].texts, (std::vector<std::string>{"1.50", "NA", "2"}));
+}
+
+TEST(tables, may_have_fixed_widths_and_said_separators) {
+  const Nodes fixed = read_bytes("ACW 17.11  -61.78 ST JOHNS\nAE  25.33   55.51 SHARJAH\n\n",
+                                 with_columns("11-17,4-9,1-3,19-30"));
+  EXPECT_EQ(fixed.given.lon, (std::vector<double>{-61.78, 55.51}));
+  EXPECT_EQ(fixed.columns.at(1).texts, (std::vector<std::string>{"ST JOHNS", "SHARJAH"}));
+  ReadOptions options = with_columns("4,3,1");
+  options.text = {'\t', false};
+  const Nodes geonames = read_bytes("x \"y\t\t42.5\t1.5\n\"z\t\t43\t2\n", options);
+  EXPECT_EQ(geonames.given.lon, (std::vector<double>{1.5, 2}));
+  EXPECT_EQ(geonames.columns.at(0).texts, (std::vector<std::string>{"x \"y", "\"z"}));
+  EXPECT_EQ(read_bytes("lat,lon,lon,lat,v\n1,2,3,4,5\n", with_columns("2,1,4,3,5")).given.lon.at(0), 2);
+}
+
 TEST(tables, begin_rows_with_errors_of_spreadsheets) {
   for (const std::string rows : {"lon,lat,v\n#N/A,40,1\n100,50,#N/A\n", "#N/A 40 1\n100 50 #DIV/0!\n",
                                  "#VALUE!;40;1\n100;50;#N/A\n"}) {

@@ -248,6 +248,12 @@ def test_nodes_are_taken_as_options_say():
     ("a.parquet", "PAR1", "Parquet: convert it first, by `python3 -c \"import pandas; "
      "pandas.read_parquet('a.parquet').to_csv('a.csv', index=False)\"`"),
     ("a", "GRIB", "GRIB: convert it first, by `cdo -f nc copy a a.nc`"),
+    ("a.vtu", "<?xml?>\n<VTKFile>", "a VTK mesh: convert it first, by `python3 -c \"import meshio; "
+     "meshio.read('a.vtu').write('a.off')\"`"),
+    ("a.msh", "$MeshFormat", "a mesh of gmsh: convert it first, by `python3 -c"),
+    ("a.msh", "# made by hand\nMSHID=3;EUCLIDEAN-MESH\nPOINT=1\n1;0;0;0\n", "a mesh of JIGSAW: convert it first, by `awk"),
+    ("fort.14", "a bay\n1 3\n1 0 0 5\n2 1 0 5\n3 0 1 5\n1 3 1 2 3\n",
+     "a grid of ADCIRC or SCHISM: convert it first, by `awk"),
 ])
 def test_formats_that_other_programs_convert(file, begin, words):
     write(file, begin)

@@ -1,0 +1,187 @@
+"""NetCDF files as netCDF4-python and xarray read them, and as conventions mean them.
+
+Environment: PSTRIPACK, the program.
+"""
+import csv
+import itertools
+import os
+import subprocess
+
+import netCDF4
+import numpy as np
+import pytest
+import xarray
+
+N = 7
+TYPES = ["i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "f4", "f8"]
+PACKINGS = [{}, {"scale_factor": 0.5}, {"add_offset": 10.0}, {"scale_factor": 0.25, "add_offset": -3.0}]
+MISSING = ["nothing", "fill", "missing_value", "double missing_value", "vector", "fill and missing_value",
+           "valid_min and valid_max", "valid_range", "library's fill", "_Unsigned", "1e20 of another type"]
+# Which of the two readers is followed where they differ.
+RULES = {"valid_min and valid_max": "netCDF4", "valid_range": "netCDF4", "library's fill": "netCDF4",
+         "1e20 of another type": "xarray"}
+
+
+def raw_values(kind, missing):
+    """Numbers of the type: 1 to 100, the largest, and some that an attribute calls missing."""
+    values = np.array([1, 2, 3, 5, 90, 100, 4], dtype=kind)
+    if missing == "_Unsigned":
+        values[2] = -56
+    if missing.startswith("1e20"):
+        values[2] = 1e20
+    if missing == "library's fill" and kind[1] != "1":
+        values[3] = netCDF4.default_fillvals[kind]
+    return values
+
+
+def write(file, name, kind, packing, missing, order, values):
+    dimensions = {"n": ("n",), "1n": ("one", "n"), "n1": ("n", "one")}[order]
+    fill = values.dtype.type(5) if missing.startswith("fill") else None
+    v = file.createVariable(name, kind, dimensions, fill_value=fill)
+    v.set_auto_maskandscale(False)
+    if "double" in missing:
+        v.missing_value = np.float64(90)
+    elif missing.startswith("1e20"):
+        v.missing_value = np.float64(1e20)
+    elif "missing_value" in missing:
+        v.missing_value = values.dtype.type(90)
+    elif missing == "vector":
+        v.missing_value = np.array([2, 90], dtype=kind)
+    elif missing == "valid_range":
+        v.valid_range = np.array([2, 99], dtype=kind)
+    elif missing.startswith("valid"):
+        v.valid_min, v.valid_max = values.dtype.type(2), values.dtype.type(99)
+    elif missing == "_Unsigned":
+        v.setncattr("_Unsigned", "true")
+    v.setncatts(packing)
+    v[:] = values.reshape({"n": (N,), "1n": (1, N), "n1": (N, 1)}[order])
+
+
+def by_netcdf4(name, group):
+    with netCDF4.Dataset(name) as file:
+        return {v: np.ma.filled(x[:].astype(float), np.nan).ravel()
+                for v, x in (file[group] if group else file).variables.items()}
+
+
+def by_xarray(name, group):
+    with xarray.open_dataset(name, group=group or None, decode_times=False) as file:
+        return {str(v): np.asarray(x.values, dtype=float).ravel() for v, x in file.variables.items()}
+
+
+def convert(file, *options, to="csv"):
+    """What it prints, on stdout or as an error."""
+    result = subprocess.run([os.environ["PSTRIPACK"], "-q", "convert", file, "-o", "-", "--to", to, *options],
+                            capture_output=True, text=True)
+    return result.stdout + result.stderr
+
+
+def columns_of(text):
+    """Each column of a CSV by its name, numbers if all are."""
+    rows = list(csv.reader(text.splitlines()))
+    return {name: np.array([float(row[k]) if row[k] else np.nan for row in rows[1:]]) for k, name in enumerate(rows[0])}
+
+
+def same(a, b):
+    return np.allclose(a, b, rtol=1e-6, atol=0, equal_nan=True)
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_values_are_those_of_netcdf4_and_xarray(tmp_path):
+    """Type x packing x missing x order x group. Where the two differ, the rule is one of RULES, which
+    docs/pstripack.md has."""
+    count, differ = 0, {}
+    for kind, missing in itertools.product(TYPES, MISSING):
+        if (missing == "_Unsigned" and kind[0] != "i") or (missing.startswith("1e20") and kind != "f4"):
+            continue
+        order, group = ["n", "1n", "n1"][count % 3], ["", "observations"][count // 3 % 2]
+        name = str(tmp_path / f"{count}.nc")
+        with netCDF4.Dataset(name, "w") as file:
+            file.createDimension("n", N)
+            file.createDimension("one", 1)
+            place = file.createGroup(group) if group else file
+            for axis, units in (("lon", "degrees_east"), ("lat", "Degrees North")):
+                v = place.createVariable(axis, "i2", ("n",))
+                v.units, v.scale_factor = units, 0.5
+                v.set_auto_maskandscale(False)
+                v[:] = np.arange(N)
+            for k, packing in enumerate(PACKINGS):
+                write(place, f"v{k}", kind, packing, missing, order, raw_values(kind, missing))
+        ours, one, other = columns_of(convert(name)), by_netcdf4(name, group), by_xarray(name, group)
+        assert same(ours["lon"], np.arange(N) / 2), (name, ours["lon"])
+        for v in (f"v{k}" for k in range(len(PACKINGS))):
+            what = f"{name}: {kind}, {missing}, {v}: ours {ours[v]}, netCDF4 {one[v]}, xarray {other[v]}"
+            if same(one[v], other[v]):
+                assert same(ours[v], one[v]), what
+            else:
+                differ[missing] = differ.get(missing, 0) + 1
+                assert missing in RULES, what
+                assert same(ours[v], {"netCDF4": one, "xarray": other}[RULES[missing]][v]), what
+        count += 1
+    assert count > 90 and set(differ) == set(RULES), differ
+
+
+def made(tmp_path, cdl):
+    """The NetCDF file of this text of CDL."""
+    (tmp_path / "x.cdl").write_text("netcdf x {" + cdl + "}")
+    subprocess.run(["ncgen", "-4", "-o", tmp_path / "x.nc", tmp_path / "x.cdl"], check=True)
+    return str(tmp_path / "x.nc")
+
+
+PLACES = """double lon(n); lon:units="degrees_east"; double lat(n); lat:units="degrees_north"; """
+PLACES_DATA = "lon=0,10,20; lat=0,20,10; "
+MESH = """dimensions: n=4; f=2; four=4; three=3; variables: int line; line:cf_role="mesh_topology";
+  line:topology_dimension=1; line:node_coordinates="bx by"; double bx(f); bx:units="degrees_east"; double by(f);
+  by:units="degrees_north"; int m; m:cf_role="mesh_topology"; m:topology_dimension=2; m:node_coordinates=%s;
+  m:face_node_connectivity="faces"; m:face_dimension="f"; double m_node_x(n); m_node_x:standard_name="longitude";
+  m_node_x:units="degree"; double m_node_y(n); m_node_y:standard_name="latitude"; m_node_y:units="degree";
+  double m_node_z(n); m_node_z:units="m"; int faces(%s); faces:_FillValue=-9; faces:start_index=1;
+  data: bx=1,2; by=3,4; m_node_x=4,4.4,4.4,4; m_node_y=52,52,52.3,52.3; m_node_z=-1,-3,-2,-4; faces=%s;"""
+
+
+@pytest.mark.parametrize("coordinates, shape, faces", [
+    ('"m_node_x m_node_y"', "f,three", "1,2,3, 1,3,4"), ('"m_node_y m_node_x"', "three,f", "1,1, 2,3, 3,4"),
+    ('"m_node_x m_node_y"', "f,four", "1,2,3,-9, 1,3,4,-9"), ('"m_node_x m_node_y"', "four,f", "1,1, 2,3, 3,4, -9,-9")])
+def test_a_mesh_of_ugrid_is_that_of_its_attributes(tmp_path, coordinates, shape, faces):
+    """The mesh of faces, not the first; its third variable of places is a depth, not a vector's part."""
+    table = columns_of(convert(made(tmp_path, MESH % (coordinates, shape, faces))))
+    assert table["area_km2"] == pytest.approx([456.733, 453.666], abs=1e-3)
+
+
+def test_faces_of_more_than_three_corners_are_told(tmp_path):
+    file = made(tmp_path, MESH % ('"m_node_x m_node_y"', "f,four", "1,2,3,4, 1,3,4,-9"))
+    assert "1 of its faces have more than three corners" in convert(file, to="fesom")
+    assert len(columns_of(convert(file))["lon"]) == 4  # its nodes
+
+
+@pytest.mark.parametrize("variables, data, options, words", [
+    # ICON: no rotated pole, unless a grid mapping says so, and --columns wins over that.
+    ('double clon(n); clon:standard_name="grid_longitude"; clon:units="Radian"; double clat(n); '
+     'clat:standard_name="grid_latitude"; clat:units="radian";', "clon=0,1,2; clat=0,1,-1;", [], "57.29577951308232"),
+    ('double clon(n); clon:standard_name="grid_longitude"; clon:units="radian"; double clat(n); clat:units="radian"; '
+     'clat:standard_name="grid_latitude"; int p; p:grid_mapping_name="rotated_latitude_longitude";',
+     "clon=0,1,2; clat=0,1,-1;", [], "angles of a rotated pole"),
+    ('double rlon(n); rlon:standard_name="grid_longitude"; rlon:units="degrees"; double rlat(n); rlat:units="degrees"; '
+     'rlat:standard_name="grid_latitude";', "rlon=1,2,3; rlat=4,5,7;", ["--columns", "rlon,rlat"], "3,7"),
+    # CICE: the pair of the wanted variable, else ask.
+    ('float TLON(n); TLON:units="degrees_east"; float TLAT(n); TLAT:units="degrees_north"; float ULON(n); '
+     'ULON:units="degrees_east"; float ULAT(n); ULAT:units="degrees_north";', "", [], "name two of them by --columns"),
+    # Units without regard to case and blanks; west is no unit of CF.
+    ('double a(n); a:units="Degrees East"; double b(n); b:units="degree_N";', "a=1,2,3; b=4,5,6;", [], "3,6"),
+    ('double lon(n); lon:units="degrees_west"; double lat(n); lat:units="degrees_north";', PLACES_DATA, [],
+     "units 'degrees_west'"),
+    # Layers and times.
+    (PLACES + "float pr(n, time);", PLACES_DATA, ["--columns", "lon,lat,pr"], "ncks -d time,0"),
+    (PLACES + "float pr(time, n);", PLACES_DATA, ["--columns", "lon,lat,pr"], "ncks -d time,0"),
+    (PLACES + "float pr(one, n, one2);", PLACES_DATA + "pr=7,8,9;", [], "20,10,9"),
+    # Texts, and integers of more digits than a double has.
+    (PLACES + "string id(n); char c(n,one); int64 big(n);", PLACES_DATA + 'id="007","b c",""; c="x","y","z"; '
+     "big=17179869184000001,2,-3;", [], "0,0,007,x,17179869184000001"),
+    # Several groups have the name.
+    (PLACES + "group: g { variables: float v(n); data: v=1,2,3; } group: h { variables: float v(n); data: v=4,5,6; }",
+     PLACES_DATA, ["--columns", "lon,lat,h/v"], "20,10,6"),
+])
+def test_variables_are_what_their_attributes_say(tmp_path, variables, data, options, words):
+    groups = variables.find("group:")
+    head, inner = (variables, "") if groups < 0 else (variables[:groups], variables[groups:])
+    file = made(tmp_path, f"dimensions: n=3; time=2; one=1; one2=1; variables: {head} data: {data} {inner}")
+    assert words in convert(file, *options)
