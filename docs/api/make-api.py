@@ -4,7 +4,7 @@
   docs/api/*.md                     a page per routine, README.md, the index by task, and ier.md, all codes
   docs/man/man3/*.3                 the same as man pages
   src/fortran/stripack_module.F90   their interfaces, from stripack_module.F90.in
-  src/fortran/plain_forwarders.inc  those of its routines that only call their C function: all that
+  src/fortran/plain_forwarders.h    those of its routines that only call their C function: all that
                                     stripack_abi.F90 does not have itself
   src/cxx/capi/plain_calls.h        the C functions that these call
   src/fortran/stripack.h.in         their prototypes for C and C++; CMake fills in the types of each library
@@ -415,45 +415,57 @@ def module_text(groups):
 # ---- the forwarders ----
 
 ABI = ROOT / "src/fortran/stripack_abi.F90"
-ABI_KINDS = {"integer": "integer(INTEGER_KIND)", "real": "real(REAL_KIND)", "logical": "logical(LOGICAL_KIND)"}
+FORWARDERS = """// Made by docs/api/make-api.py. The symbols of libstripack* that only call their C function. Compiled once for each
+// routine of each library: see stripack_abi.F90.
+// clang-format off
 
+#include "capi/plain_calls.h"
 
-def abi_declarations(routine, indent, choose=lambda is_value: True, attribute="", result=None):
-    """Of the arguments with choose(is_value), is_value: a scalar that the routine does not change."""
-    text = []
-    for type_ in ABI_KINDS:
-        names = [name.lower() + (f"({a.shape if a.shape.isdigit() else '*'})" if a.shape else "")
-                 for a in routine.arguments if a.type == type_ and choose(a.use == "in" and not a.shape)
-                 for name in a.names]
-        if result and result[0] == type_:
-            names.append(result[1])
-        if names:
-            text.append(fortran_line(f"{ABI_KINDS[type_]}{attribute} :: {', '.join(names)}", indent))
-    return text
+#if STRIPACK_INTEGER_BYTES == 8
+#define OF_INTEGER(name) name##_i8
+#define OF_REAL(name) name##_i8
+#elif STRIPACK_REAL_BYTES == 8
+#define OF_INTEGER(name) name##_i4
+#define OF_REAL(name) name##_r8
+#else
+#define OF_INTEGER(name) name##_i4
+#define OF_REAL(name) name##_r4
+#endif
+
+#define IDENT(routine) \\
+  static const volatile char ident[] = "@(#)PSTRIPACK " STRIPACK_LIBRARY " " routine; \\
+  if (ident[0] != '@') return
+
+#pragma GCC visibility push(default)
+#include "stripack.h"
+
+using Int = stripack_integer;
+using Real = stripack_real;
+
+{}
+
+#pragma GCC visibility pop
+"""
 
 
 def forwarder(routine):
-    """The Fortran procedure. C functions get scalars that they do not change by value, and return logicals as integers."""
-    name, arguments, kind = routine.name.lower(), ", ".join(routine.names()).lower(), routine.result and routine.result[0]
-    call = f"c_{name}({arguments})"
-    c_procedure = "function" if kind else "subroutine"
-    c_kind = {"logical": "integer"}.get(kind, kind)
-    of = "OF_REAL" if has_reals(routine) else "OF_INTEGER"
-    head = f"{ABI_KINDS[kind]} function" if kind else "subroutine"
-    statement = f"{name} = {call}{' /= 0' if kind == 'logical' else ''}" if kind else f"call {call}"
-    return "\n".join([
-        f"#ifdef STRIPACK_{routine.name}", fortran_line(f"recursive {head} {name}({arguments})", ""),
-        "  use, intrinsic :: iso_c_binding", "  implicit none", *abi_declarations(routine, "  "),
-        *[f'  IDENT("{routine.name}")'] * routine.ident,
-        "  interface", fortran_line(f'{c_procedure} {call} bind(c, name="pstripack_{name}"//{of})', "    "), "      import",
-        *abi_declarations(routine, "      ", lambda is_value: is_value, ", value"),
-        *abi_declarations(routine, "      ", lambda is_value: not is_value, result=kind and (c_kind, f"c_{name}")),
-        f"    end {c_procedure}", "  end interface", *["  KEEP_IDENT"] * routine.ident,
-        fortran_line(statement, "  "), f"end {c_procedure}", "#endif"])
+    """The symbol. C functions get scalars that they do not change by value."""
+    name, of = routine.name.lower(), "OF_REAL" if has_reals(routine) else "OF_INTEGER"
+    arguments = ", ".join(("*" if a.use == "in" and not a.shape else "") + name.lower()
+                          for a in routine.arguments for name in a.names)
+    call = f"{'return ' if routine.result else ''}{of}(pstripack_{name})({arguments});"
+    head = re.sub(r"\s+", " ", prototype(routine)[:-1]).replace("stripack_integer", "Int")
+    head = head.replace("stripack_logical", "Int").replace("stripack_real", "Real") + " {"
+    head = re.sub(r"(const )?\w+\* ", lambda match: match[0].replace(" ", NO_BREAK), head)
+    return "\n".join([f"#ifdef STRIPACK_{routine.name}",
+                      textwrap.fill(head, 110, subsequent_indent="    ").replace(NO_BREAK, " "),
+                      *[f'  IDENT("{routine.name}");'] * routine.ident,
+                      textwrap.fill(call, 110, initial_indent="  ", subsequent_indent="      "), "}", "#endif"])
 
 
 def has_reals(routine):
-    return "real" in [a.type for a in routine.arguments]
+    """Whether the kind of reals tells its C function: by its arguments, or by its arithmetic."""
+    return "real" in [a.type for a in routine.arguments] or routine.name == "JRAND"
 
 
 def declaration_in_c(routine):
@@ -469,7 +481,7 @@ def declaration_in_c(routine):
 
 
 PLAIN_CALLS = """#pragma once
-// Made by docs/api/make-api.py. The C functions that src/fortran/plain_forwarders.inc calls.
+// Made by docs/api/make-api.py. The C functions that src/fortran/plain_forwarders.h calls.
 // clang-format off
 
 #include <cstdint>
@@ -499,9 +511,7 @@ def plain_files(routines):
     """Of the routines that stripack_abi.F90 does not have itself."""
     written = set(re.findall(r"^#ifdef STRIPACK_(\w+)$", ABI.read_text(), re.MULTILINE))
     plain = [routine for routine in routines if routine.name not in written]
-    return {"src/fortran/plain_forwarders.inc":
-            "! Made by docs/api/make-api.py. What a forwarder may do: stripack_abi.F90.\n\n"
-            + "\n\n".join(map(forwarder, plain)) + "\n",
+    return {"src/fortran/plain_forwarders.h": FORWARDERS.format("\n\n".join(map(forwarder, plain))),
             "src/cxx/capi/plain_calls.h": PLAIN_CALLS.format(
                 *(" \\\n".join(declaration_in_c(routine) for routine in plain if has_reals(routine) == reals)
                   for reals in (False, True)))}

@@ -1,8 +1,9 @@
 ! The symbols of libstripack*: STRIPACK's external procedures, as calls of libpstripack.
 !
-! One source for all libraries and all routines; plain_forwarders.inc, generated from the table in docs/api/routines, has
-! those that only call their C function. It is compiled once for each routine of each library, so that a static
-! archive has one object per public routine. CMakeLists.txt generates the source files, which define
+! One source for all libraries, of the routines that need Fortran; plain_forwarders.h, generated from the table in
+! docs/api/routines, has those that only call their C function, in C++. Each is compiled once for each routine of each
+! library, so that a static archive has one object per public routine. CMakeLists.txt generates the source files, which
+! define
 !   STRIPACK_<NAME>          the routine to compile, e.g. STRIPACK_TRLIST
 ! and include this file; the library's compile definitions are
 !   STRIPACK_REAL_BYTES      4 or 8
@@ -44,8 +45,6 @@
 ! others of the same names. It is volatile and decides a branch, so that no compiler or linker removes it.
 #define IDENT(ROUTINE) character(len=40), save, volatile :: ident = "@(#)PSTRIPACK "//STRIPACK_LIBRARY//" "//ROUTINE
 #define KEEP_IDENT if (ident(1:1) /= "@") return
-
-#include "plain_forwarders.inc"
 
 #ifdef STRIPACK_TRMESH
 #ifdef STRIPACK_8_ARGUMENTS
@@ -118,22 +117,6 @@ recursive subroutine delnod(k, n, x, y, z, list, lptr, lend, lnew, lwk, iwk, ier
   call c_delnod(k, n, x, y, z, list, lptr, lend, lnew, lwk, iwk, ier, nit, optim_ier)
   if (ier == 5) write (*, '(//5x,2(a,i0),/)') "DELNOD: OPTIM failed: NIT = ", nit, ", IER = ", optim_ier
 end subroutine
-#endif
-
-#ifdef STRIPACK_JRAND
-recursive integer(INTEGER_KIND) function jrand(n, ix, iy, iz)
-  use, intrinsic :: iso_c_binding
-  implicit none
-  integer(INTEGER_KIND) :: n, ix, iy, iz
-  interface
-    function c_jrand(n, ix, iy, iz) bind(c, name="pstripack_jrand"//OF_REAL)
-      import
-      integer(INTEGER_KIND), value :: n
-      integer(INTEGER_KIND) :: ix, iy, iz, c_jrand
-    end function
-  end interface
-  jrand = c_jrand(n, ix, iy, iz)
-end function
 #endif
 
 #ifdef STRIPACK_STORE

@@ -1,5 +1,5 @@
 #pragma once
-// Made by docs/api/make-api.py. The C functions that src/fortran/plain_forwarders.inc calls.
+// Made by docs/api/make-api.py. The C functions that src/fortran/plain_forwarders.h calls.
 // clang-format off
 
 #include <cstdint>
@@ -62,7 +62,8 @@ LIST_CALLS(int64_t, i8)
   Int pstripack_inside_##suffix(const Real* p, Int lv, const Real* xv, const Real* yv, const Real* zv, \
       Int nv, const Int* listv, Int* ier) noexcept; \
   void pstripack_intrsc_##suffix(const Real* p1, const Real* p2, const Real* cn, Real* p, Int* ier) \
-      noexcept;
+      noexcept; \
+  Int pstripack_jrand_##suffix(Int n, Int* ix, Int* iy, Int* iz) noexcept;
 NODE_CALLS(float, int32_t, r4)
 NODE_CALLS(double, int32_t, r8)
 NODE_CALLS(double, int64_t, i8)

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/parallel_for.h"
 #include "lists/list_pieces.h"
 #include "mesh/ring_table.h"
 
@@ -15,14 +14,13 @@ namespace pstripack {
 namespace {
 
 /// The rings of nodes 0..count-1: that of node i is stored at rings + place[i].
-template <class Int>
 struct StoredRings {
-  const Int* rings;
+  const std::int32_t* rings;
   const std::uint32_t* place;
   std::size_t count;
 
   std::size_t size() const { return count; }
-  Ring<Int> operator[](std::size_t i) const { return ring_at(rings + place[i]); }
+  Ring<std::int32_t> operator[](std::size_t i) const { return ring_at(rings + place[i]); }
   [[gnu::always_inline]] void prefetch(std::size_t i) const { __builtin_prefetch(rings + place[i]); }
   std::size_t arcs(std::size_t first, std::size_t last) const {
     std::size_t sum = 0;
@@ -33,50 +31,23 @@ struct StoredRings {
 
 }  // namespace
 
-template <class Int>
-Int write_lists(const Hull& hull, Int* list, Int* lptr, Int* lend, Workspace& workspace) {
+std::int32_t write_lists(const Hull& hull, std::int32_t* list, std::int32_t* lptr, std::int32_t* lend,
+                         Workspace& workspace) {
   const std::size_t n = hull.node_count;
-  const int threads = threads_for(n);
-  const std::size_t pieces = static_cast<std::size_t>(threads);
   workspace.next_phase();
   auto* const ring_of = workspace.for_phase<std::uint32_t>(n);  // where in `rings` the node's ring is stored
-  auto* const rings = workspace.for_phase<Int>(7 * n + pieces * (2 * kBlock + 1));
-  std::vector<std::size_t> sums(pieces * pieces), begin_of(pieces + 1);
-
-  // Count the neighbours of the nodes of each piece, to know where its rings begin.
-  const std::size_t piece_size = n / pieces + 1;
-  if (pieces > 1)
-    parallel_pieces(hull.face_count, threads, [&](std::size_t first, std::size_t last, int thread) {
-      std::size_t* const sum = sums.data() + pieces * static_cast<std::size_t>(thread);
-      for (std::size_t t = first; t < last; ++t) {
-        if (!hull.front(t)) continue;
-        const Face& f = hull.faces[t];
-        for (std::uint32_t i = 0; i < 3; ++i)
-          sum[f.vertex[i] / piece_size] += hull.front(face_of(f.neighbour[previous_edge(i)])) ? 1 : 2;
-      }
-    });
-  for (std::size_t p = 0; p < pieces; ++p) {
-    begin_of[p + 1] = begin_of[p] + piece_size + 2 * kBlock;
-    for (std::size_t t = 0; t < pieces; ++t) begin_of[p + 1] += sums[pieces * t + p];
-  }
-
-  const Numbers<std::uint32_t, 1> number{hull.order};
-  // In the order of the hull, where the faces of a star are close together in memory: store all
-  // rings.
-  parallel_pieces(pieces, threads, [&](std::size_t piece, std::size_t, int) {
-    const std::size_t last = std::min(n, piece_size * (piece + 1));
-    append_rings(
-        hull, piece_size * piece, last, [](std::size_t) { return true; }, number,
-        [&](std::size_t v) { __builtin_prefetch(&ring_of[hull.order[v]], 1); }, rings + begin_of[piece],
-        [&](std::size_t v, const Int* place, std::uint32_t) {
-          ring_of[hull.order[v]] = static_cast<std::uint32_t>(place - rings);
-        });
-  });
-
+  auto* const rings = workspace.for_phase<std::int32_t>(7 * n + 2 * kBlock + 1);
+  // In the order of the hull, where the faces of a star are close together in memory: store all rings.
+  append_rings(
+      hull, 0, n, [](std::size_t) { return true; }, Numbers<std::uint32_t, 1>{hull.order},
+      [&](std::size_t v) { __builtin_prefetch(&ring_of[hull.order[v]], 1); }, rings,
+      [&](std::size_t v, const std::int32_t* place, std::uint32_t) {
+        ring_of[hull.order[v]] = static_cast<std::uint32_t>(place - rings);
+      });
   // Then, in the order of the caller's nodes, so that the lists are written from front to back: copy the
   // rings.
-  write_piece(StoredRings<Int>{rings, ring_of, n}, 0, list, lend, threads);
-  write_lptr(lend, n, 0, lptr, threads);
+  write_piece(StoredRings{rings, ring_of, n}, 0, list, lend, 1);
+  write_lptr(lend, n, 0, lptr, 1);
   return lend[n - 1] + 1;
 }
 
@@ -90,24 +61,7 @@ Verdict malformed(const std::string& what, std::size_t node) {
   return v;
 }
 
-template <class Int>
-std::size_t absolute(Int v) {
-  return static_cast<std::size_t>(v < 0 ? -v : v);
-}
-
-/// Calls visit(b, c) for each neighbour b of node k (from 0), in order, and its successor c; both indices
-/// from 0. The last neighbour of a boundary node has no successor.
-template <class Int, class Visit>
-void for_each_triangle_at(const ListsView<Int>& lists, std::size_t k, const Visit& visit) {
-  const Int last = lists.lend[k];
-  Int slot = last;
-  do {
-    const Int next = lists.lptr[slot - 1];
-    if (lists.list[slot - 1] > 0)
-      visit(absolute(lists.list[slot - 1]) - 1, absolute(lists.list[next - 1]) - 1);
-    slot = next;
-  } while (slot != last);
-}
+std::size_t absolute(std::int32_t v) { return static_cast<std::size_t>(v < 0 ? -v : v); }
 
 /// Finds a neighbour's position in a star: by linear search in a short star, in a sorted table for a hub.
 class StarPlaces {
@@ -172,31 +126,33 @@ class StarPlaces {
 
 /// Reads the neighbours of all nodes in the order of the lists. A defect if the lists are not closed or do
 /// not use exactly the slots 1..LNEW-1.
-template <class Int>
-Verdict read_stars(const ListsView<Int>& lists, StarTable& stars) {
+Verdict read_stars(const ListsView<std::int32_t>& lists, StarTable& stars) {
   const std::size_t n = lists.n;
   const std::size_t most = 6 * n - 12;
   if (lists.lnew != 0 && (lists.lnew < 1 || static_cast<std::size_t>(lists.lnew) > most + 1))
     return malformed("LNEW is out of range", 0);
   const std::size_t slots = lists.lnew != 0 ? static_cast<std::size_t>(lists.lnew) - 1 : most;
-  const auto in_range = [](Int v, std::size_t last) { return v >= 1 && static_cast<std::size_t>(v) <= last; };
+  const auto in_range = [](std::int32_t v, std::size_t last) {
+    return v >= 1 && static_cast<std::size_t>(v) <= last;
+  };
 
   std::vector<bool> visited(slots + 1, false);
   std::uint32_t end = 0;
   stars.begin[0] = 0;
   for (std::size_t k = 0; k < n; ++k) {
-    const Int last = lists.lend[k];
+    const std::int32_t last = lists.lend[k];
     if (!in_range(last, slots)) return malformed("LEND is out of range", k);
-    Int slot = last;
+    std::int32_t slot = last;
     do {
       slot = lists.lptr[slot - 1];
       if (!in_range(slot, slots)) return malformed("LPTR is out of range", k);
       if (visited[static_cast<std::size_t>(slot)])
         return malformed("a slot is in two lists, or a list is not closed", k);
       visited[static_cast<std::size_t>(slot)] = true;
-      const Int b = lists.list[slot - 1];
+      const std::int32_t b = lists.list[slot - 1];
       if (b < 0 && slot != last) return malformed("a negative neighbour that is not the last", k);
-      if (b < -std::numeric_limits<Int>::max() || !in_range(b < 0 ? -b : b, n) || absolute(b) == k + 1)
+      if (b < -std::numeric_limits<std::int32_t>::max() || !in_range(b < 0 ? -b : b, n) ||
+          absolute(b) == k + 1)
         return malformed("a neighbour is out of range", k);
       stars.to[end++] = b < 0 ? static_cast<index_t>(b) : static_cast<index_t>(b - 1);  // ~(|b|-1) == b
     } while (slot != last);
@@ -246,8 +202,7 @@ Verdict check_stars(const StarTable& stars) {
 }
 
 /// check_lists; stores the stars of valid lists in `stars`.
-template <class Int>
-Verdict stars_of(const ListsView<Int>& lists, std::optional<StarTable>& stars) {
+Verdict stars_of(const ListsView<std::int32_t>& lists, std::optional<StarTable>& stars) {
   if (lists.n < 3) return malformed("fewer than three nodes", 0);
   stars.emplace(lists.n, 6 * lists.n - 12);
   if (Verdict v = read_stars(lists, *stars); !v) return v;
@@ -256,24 +211,21 @@ Verdict stars_of(const ListsView<Int>& lists, std::optional<StarTable>& stars) {
 
 }  // namespace
 
-template <class Int>
-Verdict check_lists(const ListsView<Int>& lists) {
+Verdict check_lists(const ListsView<std::int32_t>& lists) {
   std::optional<StarTable> stars;
   return stars_of(lists, stars);
 }
 
-template <class Int>
-Verdict check_topology(const ListsView<Int>& lists) {
+Verdict check_topology(const ListsView<std::int32_t>& lists) {
   std::optional<StarTable> stars;
   if (Verdict v = stars_of(lists, stars); !v) return v;
   return check_surface(*stars);
 }
 
-template <class Int>
-bool lists_are_canonical(const ListsView<Int>& lists) {
-  Int slot = 1;
+bool lists_are_canonical(const ListsView<std::int32_t>& lists) {
+  std::int32_t slot = 1;
   for (std::size_t k = 0; k < lists.n; ++k) {
-    const Int first = slot, last = lists.lend[k];
+    const std::int32_t first = slot, last = lists.lend[k];
     if (last < first) return false;
     for (; slot < last; ++slot)
       if (lists.lptr[slot - 1] != slot + 1) return false;
@@ -286,33 +238,26 @@ bool lists_are_canonical(const ListsView<Int>& lists) {
   return lists.lnew == 0 || lists.lnew == slot;
 }
 
-template <class Int>
-Triangles triangles_of(const ListsView<Int>& lists) {
+Triangles triangles_of(const ListsView<std::int32_t>& lists) {
   Triangles triangles;
   triangles.reserve(2 * lists.n);
-  for (std::size_t k = 0; k < lists.n; ++k)
-    for_each_triangle_at(lists, k, [&](std::size_t b, std::size_t c) {
-      if (k < b && k < c)
-        triangles.push_back({static_cast<index_t>(k), static_cast<index_t>(b), static_cast<index_t>(c)});
-    });
+  for (std::size_t k = 0; k < lists.n; ++k) {
+    std::int32_t slot = lists.lend[k];
+    do {
+      const std::int32_t next = lists.lptr[slot - 1];
+      const auto a = static_cast<index_t>(k), b = static_cast<index_t>(lists.list[slot - 1] - 1),
+                 c = static_cast<index_t>(absolute(lists.list[next - 1]) - 1);
+      if (a < b && a < c) triangles.push_back({a, b, c});  // b < 0: the last neighbour of a boundary node
+      slot = next;
+    } while (slot != lists.lend[k]);
+  }
   return triangles;
 }
 
-template <class Int>
-Verdict is_valid(const Point* p, const ListsView<Int>& lists, Lengths lengths, Ties ties) {
+Verdict is_valid(const Point* p, const ListsView<std::int32_t>& lists, Lengths lengths, Ties ties) {
   std::optional<StarTable> stars;
   if (Verdict v = stars_of(lists, stars); !v) return v;
   return is_valid(p, *stars, lengths, ties);
 }
-
-#define PSTRIPACK_INSTANTIATE(Int)                                     \
-  template Int write_lists(const Hull&, Int*, Int*, Int*, Workspace&); \
-  template Verdict check_lists(const ListsView<Int>&);                 \
-  template Verdict check_topology(const ListsView<Int>&);              \
-  template bool lists_are_canonical(const ListsView<Int>&);            \
-  template Triangles triangles_of(const ListsView<Int>&);              \
-  template Verdict is_valid(const Point*, const ListsView<Int>&, Lengths, Ties);
-PSTRIPACK_INSTANTIATE(std::int32_t)
-#undef PSTRIPACK_INSTANTIATE
 
 }  // namespace pstripack

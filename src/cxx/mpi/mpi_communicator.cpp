@@ -61,8 +61,9 @@ bool is_usable(MPI_Comm comm) {
 double processor_seconds() { return clock_seconds(CLOCK_THREAD_CPUTIME_ID); }
 
 /// The pauses between polls of one wait: none at first, because most waits are short; then yields; then
-/// sleeps of an eighth of the time waited so far, which hardly prolong the wait. If ranks share processors:
-/// no spinning and more yields, because the awaited rank may need the processor.
+/// sleeps of an eighth of the time waited so far, which hardly prolong the wait; the longest after a second,
+/// as workers of the pool wait. If ranks share processors: no spinning and more yields, because the awaited
+/// rank may need the processor.
 class BackOff {
  public:
   explicit BackOff(bool crowded) : spin_(crowded ? 0 : 50e-6), yield_(crowded ? 1e-3 : 200e-6) {}
@@ -74,8 +75,8 @@ class BackOff {
       sched_yield();
       return;
     }
-    constexpr double kLongest = 200e-6;
-    const timespec nap{0, static_cast<long>(1e9 * std::min(waited / 8, kLongest))};
+    const double longest = waited < 1 ? 200e-6 : 1e-3;
+    const timespec nap{0, static_cast<long>(1e9 * std::min(waited / 8, longest))};
     nanosleep(&nap, nullptr);
   }
 

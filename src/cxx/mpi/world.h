@@ -1,7 +1,8 @@
 #pragma once
-// MPI for a program that is nothing but a rank: the worker of the pool.
+// MPI for a program that is nothing but a rank: the worker of the pool. Not for the libraries, which never
+// start MPI.
 
-#include <cstddef>
+#include <cstdlib>
 
 #include "mpi/mpi_communicator.h"
 
@@ -11,22 +12,22 @@ namespace pstripack {
 class World {
  public:
   /// Initialises MPI. Collective.
-  World();
+  World() {
+    int provided = 0;
+    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+  }
   /// Finalises MPI. Collective.
-  ~World();
+  ~World() { MPI_Finalize(); }
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
   /// Collective.
   MpiCommunicator communicator() const { return MpiCommunicator(MPI_COMM_WORLD); }
   /// Ends the job.
-  [[noreturn]] void abort() const;
+  [[noreturn]] void abort() const {
+    MPI_Abort(MPI_COMM_WORLD, 1);
+    std::abort();  // does not return either, but MPI's declaration does not say so
+  }
 };
-
-/// On rank 0: sends `size` bytes to each of the other ranks, over MPI_COMM_WORLD, where nothing else is sent.
-void tell_others(const void* message, std::size_t size);
-/// On the other ranks: waits for that message. Sleeps grow with the time waited so far, so that frequent
-/// messages are received promptly and a long wait takes hardly any processor time.
-void wait_for_rank_0(void* message, std::size_t size);
 
 }  // namespace pstripack

@@ -20,15 +20,13 @@
 namespace pstripack {
 namespace {
 
-/// Sent by rank 0 to the workers: a call of TRMESH, or the end.
+/// Broadcast by rank 0: a call of TRMESH, or the end.
 struct Order {
   std::int32_t real_bytes = 0;  ///< 4 or 8, the size of the nodes' reals; 0: the end
   std::int32_t n = 0;
   std::int64_t area = 0;        ///< number of the area that holds the arrays
   std::int32_t sends_area = 0;  ///< its descriptor follows on the sockets of connect_ranks()
 };
-
-void tell_workers(const Order& order) { tell_others(&order, sizeof order); }
 
 /// Collective. True if every rank has mapped the area: then all read and write the arrays there, and none
 /// are sent.
@@ -113,7 +111,8 @@ int Steward::serve(MpiCommunicator& ranks) {
   const bool is_known = receive_packet(keeper_, &end, sizeof end);
   if (!is_known) end.status = SIGKILL;  // as the keeper
   clients_.clear();
-  tell_workers({});
+  Order end_of_pool;
+  ranks.broadcast(&end_of_pool, sizeof end_of_pool, 0);
   if (has_launcher_ && is_known) return 0;
   return WIFEXITED(end.status) ? WEXITSTATUS(end.status) : 128 + WTERMSIG(end.status);
 }
@@ -141,8 +140,8 @@ bool Steward::serve(Client& client, MpiCommunicator& ranks) {
     return send_packet(client.socket, &reply, sizeof reply);
 
   ranks.set_phase("the start of a call");
-  const Order order{request.real_bytes, request.n, client.area_number, client.area.file() ? 1 : 0};
-  tell_workers(order);
+  Order order{request.real_bytes, request.n, client.area_number, client.area.file() ? 1 : 0};
+  ranks.broadcast(&order, sizeof order, 0);
   if (order.sends_area != 0) send_to_workers(client.area.file());
   TrmeshResult result{0};
   try {
@@ -169,7 +168,7 @@ void serve_as_worker(MpiCommunicator& ranks) {
   for (;;) {
     ranks.set_phase("its wait for a call");
     Order order;
-    wait_for_rank_0(&order, sizeof order);
+    ranks.broadcast(&order, sizeof order, 0);
     if (order.real_bytes == 0) return;
     if (order.area != area_number) area = SharedArea();
     area_number = order.area;

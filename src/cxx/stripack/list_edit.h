@@ -6,6 +6,7 @@
 // For Int = int32_t, int64_t. Nodes and slots count from 1; k is the node that is added.
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 #include "capi/pstripack.h"
@@ -393,35 +394,65 @@ using CheckedEditor = ListEditor<CheckedArrays<Int>>;
 
 // The routines. Each returns 0 or broken_lists. On broken_lists nothing is changed, except by `delnb`.
 
+/// Values of DELNB's LPH other than the freed slot.
+constexpr int no_such_node = -1, no_neighbour = -2;
+
+/// Runs change(editor), which counts slots in the caller's LNEW.
+template <class Int, class Change>
+int edit(const EditedLists<Int>& lists, const Change& change) {
+  return code_or_broken_lists([&] {
+    change(CheckedEditor<Int>({lists, *lists.lnew}));
+    return 0;
+  });
+}
+
 /// INSERT: ListEditor::insert.
 template <class Int>
-int insert(Int k, Int lp, const EditedLists<Int>& lists);
+int insert(Int k, Int lp, const EditedLists<Int>& lists) {
+  return edit(lists, [&](const auto& editor) { editor.insert(k, lp); });
+}
 
 /// INTADD: ListEditor::add_inside for k = lists.n; i1, i2, i3 is counterclockwise.
 template <class Int>
-int intadd(Int i1, Int i2, Int i3, const EditedLists<Int>& lists);
+int intadd(Int i1, Int i2, Int i3, const EditedLists<Int>& lists) {
+  return edit(lists, [&](const auto& editor) { editor.add_inside(lists.n, i1, i2, i3); });
+}
 
 /// BDYADD: ListEditor::add_outside for k = lists.n; i1 and i2 differ.
 template <class Int>
-int bdyadd(Int i1, Int i2, const EditedLists<Int>& lists);
+int bdyadd(Int i1, Int i2, const EditedLists<Int>& lists) {
+  return edit(lists, [&](const auto& editor) { editor.add_outside(lists.n, i1, i2); });
+}
 
 /// COVSPH: ListEditor::cover_sphere for k = lists.n.
 template <class Int>
-int covsph(Int n0, const EditedLists<Int>& lists);
+int covsph(Int n0, const EditedLists<Int>& lists) {
+  return edit(lists, [&](const auto& editor) { editor.cover_sphere(lists.n, n0); });
+}
 
 /// SWAP: replaces arc io1-io2, where io1, io2, in1 and io2, io1, in2 are counterclockwise triangles, by
 /// in1-in2. `slot`: the slot of in1 in the list of in2; 0, with nothing changed, if they are already
 /// neighbours.
 template <class Int>
-int swap(Int in1, Int in2, Int io1, Int io2, const EditedLists<Int>& lists, Int& slot);
-
-/// Values of DELNB's LPH other than the freed slot.
-constexpr int no_such_node = -1, no_neighbour = -2;
+int swap(Int in1, Int in2, Int io1, Int io2, const EditedLists<Int>& lists, Int& slot) {
+  Int unknown = std::numeric_limits<Int>::max();
+  return code_or_broken_lists([&] {
+    slot = CheckedEditor<Int>({lists, unknown}).swap(in1, in2, io1, io2);
+    return 0;
+  });
+}
 
 /// DELNB: removes nb from the list of n0, but not n0 from that of nb. `slot`: the freed slot, into which the
 /// top slot moved; or no_such_node or no_neighbour, with nothing changed. O(degree squared); the original
 /// searches all slots.
 template <class Int>
-int delnb(Int n0, Int nb, const EditedLists<Int>& lists, Int& slot);
+int delnb(Int n0, Int nb, const EditedLists<Int>& lists, Int& slot) {
+  const Int n = lists.n;
+  if (n0 < 1 || n0 > n || nb < 1 || nb > n || n < 3) {
+    slot = no_such_node;
+    return 0;
+  }
+  return edit(lists, [&](const auto& editor) { slot = editor.remove_neighbour(n0, nb); });
+}
 
 }  // namespace pstripack

@@ -1,7 +1,6 @@
 #include "trmesh/exact_difference.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -9,6 +8,7 @@
 #include "capi/pstripack.h"
 #include "mesh/delaunay.h"
 #include "parallel/coincidence.h"
+#include "stripack/list_queries.h"
 
 namespace pstripack {
 namespace {
@@ -56,20 +56,8 @@ class Circles {
   std::vector<std::uint32_t> circle_;
 };
 
-/// Calls visit(b) for each neighbour b of node a, both from 0.
-template <class Int, class Visit>
-void for_each_neighbour(const ListsView<Int>& lists, std::size_t a, const Visit& visit) {
-  const Int last = lists.lend[a];
-  Int slot = last;
-  do {
-    visit(static_cast<std::size_t>(std::abs(lists.list[slot - 1])) - 1);
-    slot = lists.lptr[slot - 1];
-  } while (slot != last);
-}
-
 /// Number of arcs between nodes that share no circle of the exact mesh.
-template <class Int>
-std::int64_t wrong_arcs(const ListsView<Int>& lists, Circles& circles) {
+std::int64_t wrong_arcs(const ListsView<std::int32_t>& lists, Circles& circles) {
   using Pair = std::pair<std::uint32_t, std::uint32_t>;  // a node and one of its circles
   std::vector<Pair> pairs;
   circles.for_each_edge([&](std::uint32_t face, std::uint32_t, std::uint32_t corner) {
@@ -92,8 +80,12 @@ std::int64_t wrong_arcs(const ListsView<Int>& lists, Circles& circles) {
     });
   };
   std::int64_t wrong = 0;
+  const ListReader<std::int32_t> reader(lists);
   for (std::size_t a = 0; a < lists.n; ++a)
-    for_each_neighbour(lists, a, [&](std::size_t b) { wrong += b < a && !have_one_in_common(a, b); });
+    reader.for_each_neighbour(static_cast<std::int32_t>(a + 1), [&](std::int32_t node) {
+      const auto b = static_cast<std::size_t>(node - 1);
+      wrong += b < a && !have_one_in_common(a, b);
+    });
   return wrong;
 }
 
@@ -103,8 +95,7 @@ struct BoundaryDifference {
   std::int64_t triangles, our_arcs;
 };
 
-template <class Int>
-BoundaryDifference boundary_difference(const ListsView<Int>& lists, const Hull& hull,
+BoundaryDifference boundary_difference(const ListsView<std::int32_t>& lists, const Hull& hull,
                                        const Circles& circles) {
   std::vector<bool> is_exact(lists.n, false);
   circles.for_each_edge([&](std::uint32_t face, std::uint32_t beyond, std::uint32_t edge) {
@@ -127,8 +118,7 @@ BoundaryDifference boundary_difference(const ListsView<Int>& lists, const Hull& 
 
 }  // namespace
 
-template <class Int>
-ExactDifference exact_difference(const NodeArrays& nodes, const ListsView<Int>& lists) {
+ExactDifference exact_difference(const NodeArrays& nodes, const ListsView<std::int32_t>& lists) {
   ExactDifference difference;
   BlockArray<Point> copy(lists.n);
   const Point* const p = nodes.points(0, lists.n, copy.data());
@@ -151,7 +141,5 @@ ExactDifference exact_difference(const NodeArrays& nodes, const ListsView<Int>& 
   difference.arcs = std::max<std::int64_t>(wrong_arcs(lists, circles) - our_arcs, 0);
   return difference;
 }
-
-template ExactDifference exact_difference(const NodeArrays&, const ListsView<std::int32_t>&);
 
 }  // namespace pstripack

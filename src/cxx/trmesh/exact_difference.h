@@ -21,7 +21,6 @@ struct ExactDifference {
 
 /// Compares a triangulation of the first lists.n nodes with the exact mesh. check_topology must accept the
 /// lists, and the nodes must be finite and non-zero. O(n log n). Throws std::bad_alloc.
-template <class Int>
-ExactDifference exact_difference(const NodeArrays& nodes, const ListsView<Int>& lists);
+ExactDifference exact_difference(const NodeArrays& nodes, const ListsView<std::int32_t>& lists);
 
 }  // namespace pstripack
