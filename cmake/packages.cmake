@@ -22,19 +22,16 @@ set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 0upstream1)  # sorts before a release 1 of Debian, which would replace it
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/src/cxx/capi ${PROJECT_BINARY_DIR}/src/fortran)
 set(CPACK_COMPONENTS_ALL "")
 
 # debian_package(component NAME package SECTION section SUMMARY line DESCRIPTION text
-#                [DEPENDS package...] [RECOMMENDS package...] [SUGGESTS package...] [LIBRARIES])
+#                [DEPENDS package...] [RECOMMENDS package...] [SUGGESTS package...] [LIBRARIES name...])
 #
-# LIBRARIES: the package has shared libraries that other programs link. Relations to libpstripack packages require
+# LIBRARIES: the shared libraries in the package that other programs link. Relations to libpstripack packages require
 # exactly this version.
 macro(debian_package component)
-  cmake_parse_arguments(arg "LIBRARIES" "NAME;SECTION;SUMMARY;DESCRIPTION" "DEPENDS;RECOMMENDS;SUGGESTS" ${ARGN})
+  cmake_parse_arguments(arg "" "NAME;SECTION;SUMMARY;DESCRIPTION" "DEPENDS;RECOMMENDS;SUGGESTS;LIBRARIES" ${ARGN})
   string(TOUPPER ${component} COMPONENT)
   list(APPEND CPACK_COMPONENTS_ALL ${component})
   set(CPACK_DEBIAN_${COMPONENT}_PACKAGE_NAME ${arg_NAME})
@@ -45,11 +42,17 @@ macro(debian_package component)
          "\\0 (= ${PSTRIPACK_DEBIAN_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
     list(JOIN arg_${relation} ", " CPACK_DEBIAN_${COMPONENT}_PACKAGE_${relation})
   endforeach()
+  if(NOT arg_NAME MATCHES "-(dev|doc)$")  # cpack starts two programs for each file that may need a library
+    set(CPACK_DEBIAN_${COMPONENT}_PACKAGE_SHLIBDEPS ON)
+  endif()
   if(arg_LIBRARIES)
-    set(CPACK_DEBIAN_${COMPONENT}_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/packaging/triggers)
+    set(control ${PROJECT_BINARY_DIR}/packaging/${component})
+    list(TRANSFORM arg_LIBRARIES REPLACE ".+" "\\0 ${PSTRIPACK_SOVERSION} ${arg_NAME} (>= ${PSTRIPACK_DEBIAN_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})\n")
+    file(WRITE ${control}/shlibs ${arg_LIBRARIES})
+    file(WRITE ${control}/triggers "activate-noawait ldconfig\n")
+    set(CPACK_DEBIAN_${COMPONENT}_PACKAGE_CONTROL_EXTRA ${control}/shlibs ${control}/triggers)
   endif()
 endmacro()
-file(WRITE ${PROJECT_BINARY_DIR}/packaging/triggers "activate-noawait ldconfig\n")
 
 set(about "PSTRIPACK computes Delaunay triangulations and Voronoi diagrams on the
 sphere, exactly and in parallel, behind the calls of STRIPACK (ACM
@@ -57,7 +60,8 @@ Algorithm 772).
 .
 ")
 set(soversion ${PSTRIPACK_SOVERSION})
-debian_package(runtime NAME libpstripack${soversion} SECTION libs LIBRARIES
+debian_package(runtime NAME libpstripack${soversion} SECTION libs
+  LIBRARIES libpstripack libpstripack_fortran libstripack libstripack_r4 libstripack_8arg libstripack_i8
   SUMMARY "Delaunay triangulation on the sphere: drop-in replacement of STRIPACK"
   DESCRIPTION "${about}This package has the shared libraries, and links by which a program that is
 linked with another libstripack.so runs with them.")
@@ -73,7 +77,7 @@ if(PSTRIPACK_WITH_MPI)
     set(mpi_packages openmpi-bin libopenmpi-dev)
   endif()
   list(POP_FRONT mpi_packages mpirun_package mpi_dev_package)
-  debian_package(mpi NAME libpstripack-mpi${soversion} SECTION libs LIBRARIES
+  debian_package(mpi NAME libpstripack-mpi${soversion} SECTION libs LIBRARIES libpstripack_mpi libpstripack_mpi_fortran
     DEPENDS libpstripack${soversion}
     SUMMARY "Delaunay triangulation on the sphere: libraries for MPI programs"
     DESCRIPTION "${about}This package has the shared libraries for programs that use MPI

@@ -192,11 +192,10 @@ Lists triangulated_by_original(const NodeSet& nodes, int& ier) {
 }
 
 Result compare_all(const std::vector<NodeSet>& sets,
-                   const std::function<std::string(const NodeSet&)>& compare, double limit,
-                   std::size_t together) {
-  constexpr std::size_t kRoom = 1000;
-  const legacy_stripack::Shared<char> texts(together * kRoom);  // the differences that a child found
-  second_original();                                            // loaded once, not in every child
+                   const std::function<std::string(const NodeSet&)>& compare, double limit) {
+  constexpr std::size_t kRoom = 1000, kTogether = 50;
+  const legacy_stripack::Shared<char> texts(kTogether * kRoom);  // the differences that a child found
+  second_original();                                             // loaded once, not in every child
   Result result;
   const auto returns = [&](std::size_t first, std::size_t end) {
     const auto work = [&] {
@@ -214,8 +213,8 @@ Result compare_all(const std::vector<NodeSet>& sets,
     }
     return true;
   };
-  for (std::size_t first = 0; first < sets.size(); first += together) {
-    const std::size_t end = std::min(first + together, sets.size());
+  for (std::size_t first = 0; first < sets.size(); first += kTogether) {
+    const std::size_t end = std::min(first + kTogether, sets.size());
     if (returns(first, end)) continue;
     for (std::size_t k = first; k < end; ++k)
       if (!returns(k, k + 1)) result.not_returned.push_back(sets[k].name);

@@ -48,11 +48,10 @@ struct Result {
 
 /// Calls compare(set) for each set in a child process, which is killed after `limit` seconds of processor
 /// time; a set takes milliseconds. compare makes the calls and returns what differs, or "". A child compares
-/// `together` sets, with the random seeds that the last set has left; if it does not return, each set has a
-/// child of its own.
+/// 50 sets, with the random seeds that the last set has left; if it does not return, each set has a child of
+/// its own.
 Result compare_all(const std::vector<NodeSet>& sets,
-                   const std::function<std::string(const NodeSet&)>& compare, double limit = 0.5,
-                   std::size_t together = 50);
+                   const std::function<std::string(const NodeSet&)>& compare, double limit = 0.5);
 
 /// Expects no difference, and at most `most_lost` sets on which a call hung or crashed.
 void expect_equal(const Result& result, int most_lost = 0);

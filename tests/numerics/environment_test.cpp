@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <ostream>
 #include <thread>
 
@@ -37,6 +38,14 @@ std::uint64_t fingerprint(const NamedNodes& set, Edge edge, const CallRoutine& c
 
 void just_call(const char*, const std::function<void()>& call) { call(); }
 
+/// In the usual environment, with arrays before inaccessible pages.
+std::uint64_t usual_fingerprint(const NamedNodes& set) {
+  static std::map<std::string, std::uint64_t> known;
+  const auto [place, is_new] = known.try_emplace(set.name);
+  if (is_new) place->second = fingerprint(set, Edge::end, just_call);
+  return place->second;
+}
+
 class InEnvironment : public ::testing::TestWithParam<Strange> {};
 
 TEST_P(InEnvironment, EveryRoutineGivesTheSameBitsAndLeavesItAsItWas) {
@@ -53,7 +62,7 @@ TEST_P(InEnvironment, EveryRoutineGivesTheSameBitsAndLeavesItAsItWas) {
     };
     // The unusual environment first: threads inherit the environment in which they start.
     const std::uint64_t inside = fingerprint(set, Edge::end, call_inside);
-    EXPECT_EQ(inside, fingerprint(set, Edge::end, just_call)) << set.name;
+    EXPECT_EQ(inside, usual_fingerprint(set)) << set.name;
   }
 }
 
@@ -62,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(Numerics, InEnvironment, ::testing::ValuesIn(environmen
 
 TEST(Memory, NoRoutineTouchesAnythingOutsideItsArrays) {
   for (const NamedNodes& set : spread_of_nodes())
-    EXPECT_EQ(fingerprint(set, Edge::begin, just_call), fingerprint(set, Edge::end, just_call)) << set.name;
+    EXPECT_EQ(fingerprint(set, Edge::begin, just_call), usual_fingerprint(set)) << set.name;
 }
 
 }  // namespace

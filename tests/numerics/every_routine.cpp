@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <type_traits>
 
 #include "capi/pstripack.h"
@@ -163,6 +164,10 @@ class EveryRoutine {
     call("TRANS", [&] { trans_(&count, latitude.data(), longitude.data(), x.data(), y.data(), z.data()); });
     hash_.add(x), hash_.add(y), hash_.add(z);
 
+    std::map<std::size_t, Input<Real>> of_node;
+    const auto vector_of = [&](std::size_t k) {
+      return of_node.try_emplace(k, vector(k), side_).first->second.data();
+    };
     for (Int i = 0; i < std::min<Int>(n_, 300); ++i) {
       const std::size_t a = index(i), b = index(7 * i + 1), c = index(11 * i + 2);
       Real latitude_of_a = mark, longitude_of_a = mark, length = mark;
@@ -175,16 +180,16 @@ class EveryRoutine {
         });
         hash_.add(left);
       }
-      Input<Real> u(vector(a), side_), v(vector(b), side_), w(vector(c), side_);
+      const Real *const u = vector_of(a), *const v = vector_of(b), *const w = vector_of(c);
       Guarded<Real> out(3, side_);
       Real area = mark, stored = mark;
       Int circum_ier = mark, intrsc_ier = mark;
-      call("AREAS", [&] { area = areas_(u.data(), v.data(), w.data()); });
-      call("CIRCUM", [&] { circum_(u.data(), v.data(), w.data(), out.data(), &circum_ier); });
+      call("AREAS", [&] { area = areas_(u, v, w); });
+      call("CIRCUM", [&] { circum_(u, v, w, out.data(), &circum_ier); });
       hash_.add(out);
-      call("INTRSC", [&] { intrsc_(u.data(), v.data(), w.data(), out.data(), &intrsc_ier); });
+      call("INTRSC", [&] { intrsc_(u, v, w, out.data(), &intrsc_ier); });
       hash_.add(out);
-      call("STORE", [&] { stored = store_(u.data()); });
+      call("STORE", [&] { stored = store_(u); });
       hash_.add(area, stored);
       hash_.add(circum_ier, intrsc_ier);
     }
