@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
 
 #include "base/parallel_for.h"
 #include "files/measures.h"
@@ -74,6 +77,31 @@ void find_half_turns(Faces& cells, const std::int32_t* beyond, const pstripack::
                                                direction_of(nodes, beyond[end] - 1));
       cells.half_turns.push_back({f, cells.corner[k], cells.corner[end], unit(normal)});
     }
+}
+
+void divide_half_turns(Faces& cells) {
+  std::map<std::tuple<double, double, double>, std::int32_t> middles;  // both cells compute the same bits
+  Faces divided = cells;
+  divided.corner.clear();
+  auto side = cells.half_turns.begin();
+  for (std::size_t f = 0; f < cells.size(); ++f) {
+    divided.begin[f] = divided.corner.size();
+    for (std::size_t k = cells.begin[f]; k < cells.begin[f + 1]; ++k) {
+      divided.corner.push_back(cells.corner[k]);
+      if (side == cells.half_turns.end() || side->face != f || side->from != cells.corner[k]) continue;
+      const Point &a = cells.points[static_cast<std::size_t>(side->from) - 1],
+                  &b = cells.points[static_cast<std::size_t>(side->to) - 1],
+                  middle = unit(cross(side->normal, minus(a, b)));
+      ++side;
+      if (dot(a, b) >= -1 + 1e-12) continue;
+      const auto [known, is_new] = middles.try_emplace({middle.x, middle.y, middle.z},
+                                                       static_cast<std::int32_t>(divided.points.size() + 1));
+      if (is_new) divided.points.push_back(middle);
+      divided.corner.push_back(known->second);
+    }
+  }
+  divided.begin.back() = divided.corner.size();
+  if (!middles.empty()) cells = std::move(divided);
 }
 
 std::vector<Point> centroids(const Faces& faces) {

@@ -12,7 +12,6 @@
 #include "geometry/predicates.h"
 #include "point_sets.h"
 #include "stripack/list_queries.h"
-#include "stripack/triangle_list.h"
 
 namespace files {
 namespace {
@@ -104,9 +103,7 @@ void expect_area_of_hull(const Faces& parts, const Mesh& mesh) {
 
 Faces clipped_to_hull(const Faces& cells, const Mesh& mesh) {
   if (!mesh.has_boundary()) return cells;
-  std::vector<std::int32_t> boundary(mesh.points.size());
-  boundary.resize(
-      static_cast<std::size_t>(pstripack::boundary_nodes(mesh.lists(), boundary.data()).boundary_nodes));
+  const std::vector<std::int32_t> boundary = hull_of(mesh);
   const LonLat of_nodes = angles_of(cells.centres, mesh.given, true), of_points(cells.points, true);
   const auto corner_of = [&](std::int32_t node) -> MapCorner {
     const auto i = static_cast<std::size_t>(node) - 1;

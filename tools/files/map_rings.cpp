@@ -1,9 +1,7 @@
 #include "files/map_rings.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <string>
 #include <tuple>
@@ -13,7 +11,6 @@
 #include "files/measures.h"
 #include "geometry/predicates.h"
 #include "point_sets.h"
-#include "stripack/list_queries.h"
 
 namespace files {
 namespace {
@@ -281,62 +278,6 @@ MapRing ring_of(const Faces& faces, std::size_t face, const LonLat& angles,
     ring.push_back({faces.points[i], wrapped(angles.lon[i]), angles.lat[i]});
   }
   return ring;
-}
-
-void divide_half_turns(Faces& cells, const pstripack::ListsView<std::int32_t>& lists) {
-  const pstripack::ListReader<std::int32_t> reader(lists);
-  const auto corner = [&](std::size_t f, std::size_t k) {
-    return cells.corner[cells.begin[f] + k % cells.corners(f)];
-  };
-  const auto has_side = [&](std::size_t f, std::int32_t from, std::int32_t to) {
-    for (std::size_t k = 0; k < cells.corners(f); ++k)
-      if (corner(f, k) == from && corner(f, k + 1) == to) return true;
-    return false;
-  };
-  Faces divided = cells;
-  divided.corner.clear();
-  std::map<std::array<std::size_t, 4>, std::int32_t> middles;  // by the cells and the ends of a side
-  for (std::size_t f = 0; f < cells.size(); ++f) {
-    divided.begin[f] = divided.corner.size();
-    for (std::size_t k = 0; k < cells.corners(f); ++k) {
-      const std::int32_t from = corner(f, k), to = corner(f, k + 1);
-      divided.corner.push_back(from);
-      const Point &a = cells.points[static_cast<std::size_t>(from) - 1],
-                  &b = cells.points[static_cast<std::size_t>(to) - 1], &node = cells.centres[f];
-      if (dot(a, b) >= -1 + 1e-12) continue;
-      // The midpoint of the side is at a right angle from both ends, is as far from the node as from the
-      // neighbour across the side, and has the node on its left. Among three nodes all cells share all sides,
-      // so the neighbour is chosen for which no other neighbour is closer.
-      const auto for_each_neighbour = [&](const auto& visit) {
-        reader.for_each_neighbour(static_cast<std::int32_t>(f + 1), [&](std::int32_t neighbour) {
-          visit(static_cast<std::size_t>(neighbour) - 1);
-        });
-      };
-      Point best{0, 0, 0};
-      double most = -3;
-      std::size_t across = 0;
-      for_each_neighbour([&](std::size_t beyond) {
-        if (!has_side(beyond, to, from)) return;
-        Point middle = unit(cross(a, minus(node, cells.centres[beyond])));
-        if (dot(a, cross(middle, node)) < 0) middle = {-middle.x, -middle.y, -middle.z};
-        double room = 2;
-        for_each_neighbour([&](std::size_t other) {
-          if (other != beyond) room = std::min(room, dot(middle, minus(node, cells.centres[other])));
-        });
-        if (room > most) most = room, best = middle, across = beyond;
-      });
-      if (most == -3) continue;
-      const auto [low, high] = std::minmax(from, to);
-      const auto [middle, is_new] =
-          middles.try_emplace({std::min(f, across), std::max(f, across), static_cast<std::size_t>(low),
-                               static_cast<std::size_t>(high)},
-                              static_cast<std::int32_t>(divided.points.size() + 1));
-      if (is_new) divided.points.push_back(best);
-      divided.corner.push_back(middle->second);
-    }
-  }
-  divided.begin.back() = divided.corner.size();
-  if (divided.points.size() > cells.points.size()) cells = std::move(divided);
 }
 
 void expect_no_half_turn(const MapRing& ring, const Faces& faces, std::size_t face) {

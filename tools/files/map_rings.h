@@ -36,11 +36,6 @@ std::vector<std::int32_t> merged_corners(const Faces& faces);
 MapRing ring_of(const Faces& faces, std::size_t face, const LonLat& angles,
                 const std::vector<std::int32_t>& corner);
 
-/// Inserts the midpoint of each side of a Voronoi cell that is a half turn. The ends of such a side do not
-/// determine its great circle. They occur where nodes lie on one circle: their cells are lunes with two
-/// sides.
-void divide_half_turns(Faces& cells, const pstripack::ListsView<std::int32_t>& lists);
-
 /// Throws NoMesh, naming the cell or triangle, if a side is a half turn: its ends do not determine its great
 /// circle.
 void expect_no_half_turn(const MapRing& ring, const Faces& faces, std::size_t face);

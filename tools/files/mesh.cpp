@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <tuple>
+#include <stdexcept>
 #include <utility>
 
 #include "base/parallel_for.h"
@@ -54,46 +54,14 @@ void check_count(std::size_t n) {
         fmt::format("at most {} nodes: 6N-12 must fit 32 bits", pstripack::most_nodes<std::int32_t>()));
 }
 
-/// The node for which `measure` of its direction is largest.
-template <class Measure>
-std::size_t farthest(const std::vector<Point>& points, const Measure& measure) {
-  std::size_t best = 0;
-  double most = -1;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (const double m = measure(unit(points[i])); m > most) best = i, most = m;
-  return best;
-}
-
-/// The node farthest from the line through the first node and the centre.
-std::size_t farthest_from_first(const std::vector<Point>& points) {
-  const Point a = unit(points[0]);
-  return farthest(points, [&](const Point& p) {
-    const Point c = cross(a, p);
-    return dot(c, c);
-  });
-}
-
-/// Three nodes that are not on one great circle, chosen far from each other.
-std::vector<std::size_t> three_corners(const std::vector<Point>& points) {
-  const std::size_t second = farthest_from_first(points);
-  const Point normal = cross(unit(points[0]), unit(points[second]));
-  std::size_t third = farthest(points, [&](const Point& p) { return std::fabs(dot(normal, p)); });
-  const auto spans = [&](std::size_t i) {
-    return pstripack::left(points[0], points[second], points[i]) != 0;
-  };
-  for (std::size_t i = 0; i < points.size() && !spans(third); ++i)
-    if (spans(i)) third = i;
-  if (!spans(third)) throw NoMesh("all nodes lie on one great circle: they have no triangulation");
-  return {0, second, third};
-}
-
-/// The nodes in an order that TRMESH accepts: the first three not on one great circle.
-std::vector<std::size_t> order_with_corners_first(const std::vector<Point>& points) {
-  std::vector<std::size_t> order(points.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const std::vector<std::size_t> corners = three_corners(points);
-  for (std::size_t k = 0; k < 3; ++k) std::swap(order[k], *std::find(order.begin(), order.end(), corners[k]));
-  return order;
+/// work(); if all nodes lie on one great circle, which the kernel finds, NoMesh.
+template <class Work>
+auto off_one_great_circle(const Work& work) {
+  try {
+    return work();
+  } catch (const std::domain_error&) {
+    throw NoMesh("all nodes lie on one great circle: they have no triangulation");
+  }
 }
 
 /// The arc opposite a node in one of its triangles, from one neighbour to the next.
@@ -133,23 +101,6 @@ void write_ring(std::size_t node, const Step* begin, const Step* end, std::vecto
   if (at_boundary) ring.back() = -ring.back();
 }
 
-/// triangulate() with renumbered nodes.
-Mesh triangulate_in_order(const std::vector<Point>& points, const std::vector<std::size_t>& order) {
-  std::vector<Point> ordered(points.size());
-  for (std::size_t i = 0; i < order.size(); ++i) ordered[i] = points[order[i]];
-  try {
-    const Mesh mesh = triangulate(std::move(ordered));
-    Triangles triangles = pstripack::triangles_of(mesh.lists());
-    for (Triangle& t : triangles)
-      for (pstripack::index_t& node : t)
-        node = static_cast<pstripack::index_t>(order[static_cast<std::size_t>(node)]);
-    return mesh_of(points, triangles);
-  } catch (const CoincidentNodes& e) {
-    const auto [first, second] = std::minmax(order[e.first], order[e.second]);
-    throw CoincidentNodes(first, second);
-  }
-}
-
 }  // namespace
 
 void set_trmesh(Trmesh trmesh) { the_trmesh() = std::move(trmesh); }
@@ -157,15 +108,17 @@ void set_trmesh(Trmesh trmesh) { the_trmesh() = std::move(trmesh); }
 Mesh triangulate(std::vector<Point> points) {
   const std::size_t n = points.size();
   check_count(n);
-  if (pstripack::left(points[0], points[1], points[2]) == 0)
-    return triangulate_in_order(points, order_with_corners_first(points));
+  // Ranks, unlike this process, need the first three nodes off one great circle.
+  const bool starts_anywhere = pstripack::left(points[0], points[1], points[2]) == 0;
   const Components c(points);
   Mesh mesh = empty_mesh(std::move(points));
+  const pstripack::TrmeshCall call{static_cast<std::int32_t>(n),
+                                   {c.x.data(), c.y.data(), c.z.data()},
+                                   {mesh.list.data(), mesh.lptr.data(), mesh.lend.data(), &mesh.lnew},
+                                   true,
+                                   starts_anywhere};
   const pstripack::TrmeshResult result =
-      the_trmesh()({static_cast<std::int32_t>(n),
-                    {c.x.data(), c.y.data(), c.z.data()},
-                    {mesh.list.data(), mesh.lptr.data(), mesh.lend.data(), &mesh.lnew},
-                    true});
+      off_one_great_circle([&] { return starts_anywhere ? pstripack::trmesh(call) : the_trmesh()(call); });
   if (result.ier > 0)
     throw CoincidentNodes(static_cast<std::size_t>(result.node) - 1,
                           static_cast<std::size_t>(result.other) - 1);
@@ -175,9 +128,9 @@ Mesh triangulate(std::vector<Point> points) {
 
 std::vector<Duplicate> duplicates(const std::vector<Point>& points) {
   check_count(points.size());
-  three_corners(points);
   pstripack::Workspace workspace(pstripack::workspace_bytes(points.size()));
-  const pstripack::Hull hull = pstripack::delaunay(points.data(), points.size(), workspace);
+  const pstripack::Hull hull =
+      off_one_great_circle([&] { return pstripack::delaunay(points.data(), points.size(), workspace); });
   std::map<std::size_t, std::vector<std::size_t>> groups;  // key: the node that the kernel inserted
   for (const auto& [in, out] : hull.coincident) {
     std::vector<std::size_t>& group = groups[static_cast<std::size_t>(in)];
@@ -239,21 +192,11 @@ bool Mesh::has_boundary() const {
 }
 
 std::vector<std::int32_t> triangles_of(const Mesh& mesh) {
-  const pstripack::ListReader<std::int32_t> reader(mesh.lists());
-  std::vector<std::int32_t> triangles;
-  triangles.reserve(3 * mesh.triangles());
-  // Each triangle is listed once, at its smallest corner, as two consecutive neighbours.
-  for (std::int32_t node = 1; node <= reader.size(); ++node) {
-    const std::int32_t end = reader.last_slot(node), begin = reader.next(end);
-    for (std::int32_t slot = begin, next = 0;; slot = next) {
-      next = reader.next(slot);
-      if (slot == end && reader.entry(end) < 0) break;  // the last neighbour of a boundary node
-      const std::int32_t b = reader.neighbour(slot), c = reader.neighbour(next);
-      if (node < b && node < c) triangles.insert(triangles.end(), {node, b, c});
-      if (slot == end) break;
-    }
-  }
-  if (triangles.size() != 3 * mesh.triangles()) throw NoMesh("the lists are broken");
+  std::vector<std::int32_t> triangles(6 * mesh.points.size() - 12);
+  std::int32_t count = 0;
+  if (triangle_list(mesh.lists(), 3, count, triangles.data()) != pstripack::TriangleListStatus::done)
+    throw NoMesh("the lists are broken");
+  triangles.resize(3 * static_cast<std::size_t>(count));
   return triangles;
 }
 
@@ -383,10 +326,7 @@ void add_corners(Faces& cells, const Mesh& mesh, const pstripack::Directions& di
   const std::size_t n = mesh.points.size();
   std::vector<std::int32_t> lptr = mesh.lptr, listc(6 * n - 12);
   std::int32_t lnew = mesh.lnew, nb = 0;
-  std::vector<std::int32_t> boundary(n);
-  const auto on_boundary =
-      static_cast<std::size_t>(pstripack::boundary_nodes(mesh.lists(), boundary.data()).boundary_nodes);
-  const std::size_t ncol = std::max<std::size_t>(on_boundary, 3) - 2;
+  const std::size_t ncol = mesh.has_boundary() ? hull_of(mesh).size() - 2 : 1;
   std::vector<std::int32_t> ltri(6 * ncol);
   std::vector<double> x(2 * n - 4), y(x.size()), z(x.size());
   const pstripack::VoronoiArrays<double, std::int32_t> out{static_cast<std::int32_t>(ncol),

@@ -135,6 +135,11 @@ Edges edges_of(const Faces& faces);
 /// from 1, across the side that ends at cells.corner[k].
 void find_half_turns(Faces& cells, const std::int32_t* beyond, const pstripack::Directions& nodes);
 
+/// Inserts the midpoint of each side of a Voronoi cell that is a half turn: the ends of such a side do not
+/// determine its great circle. They occur where nodes lie on one circle: their cells are lunes with two
+/// sides.
+void divide_half_turns(Faces& cells);
+
 /// The centroid of each face: the direction of the integral of p over it. Right to 1e-15 rad for each unit of
 /// the face's length over its width, if sides of nearly half a turn are in faces.half_turns.
 std::vector<Point> centroids(const Faces& faces);

@@ -5,14 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <optional>
 #include <vector>
 
 #include "base/parallel_for.h"
 #include "files/limited_area.h"
 #include "geometry/measures.h"
-#include "lists/rings.h"
 #include "parallel/agreement.h"
+#include "parallel/halo.h"
 
 namespace methods {
 namespace {
@@ -44,26 +45,14 @@ double area_of_cell(const Neighbourhood& nodes, const Directions& directions, st
   return cell_area(at(directions, i), ring.data(), ring.size());
 }
 
-/// A value that a rank sends to the ranks that know the node as a neighbour.
-struct ValueOfNode {
-  std::int64_t number;
-  double value;
-};
-
-/// Areas of the cells of this rank's nodes, then of their neighbours on other ranks. Sets the directions of
-/// both. Collective.
+/// Areas of the cells of this rank's nodes, then of the halo. Sets the directions of both. Collective.
 std::vector<double> areas_of_cells(pstripack::Communicator& ranks, const Neighbourhood& nodes,
                                    std::optional<Directions>& directions) {
-  const std::size_t own = nodes.stars.count;
-  std::size_t known = own;  // own nodes and neighbours on other ranks
+  const std::size_t own = nodes.stars.count, known = own + nodes.owners.size();
   std::vector<double> areas;
-  std::vector<std::vector<ValueOfNode>> told;
-  const std::int64_t all = pstripack::scvt::sum_of_all(ranks, own);
-  const pstripack::Parcels parcels = pstripack::exchange_in_agreement(ranks, [&] {
-    for (std::size_t s = 0; own > 0 && s < nodes.stars.end_of(own - 1); ++s)
-      known = std::max(known, static_cast<std::size_t>(nodes.stars.neighbour[s]));
+  pstripack::in_agreement(ranks, [&] {
     directions.emplace(nodes.points, known);
-    areas.resize(own);
+    areas.resize(known);
     const int threads = pstripack::threads_for(10 * own);
     pstripack::ErrorsOfThreads errors(static_cast<std::size_t>(threads));
     pstripack::parallel_pieces(own, threads, [&](std::size_t first, std::size_t last, int piece) {
@@ -73,32 +62,13 @@ std::vector<double> areas_of_cells(pstripack::Communicator& ranks, const Neighbo
       });
     });
     errors.rethrow();
-    const std::vector<std::int32_t> ranks_of_others =
-        pstripack::scvt::ranks_of_slices(ranks, all, {nodes.numbers + own, nodes.numbers + known});
-    told.resize(static_cast<std::size_t>(ranks.size()));
-    for (std::size_t i = 0; i < own; ++i)
-      around(nodes, i, [&](std::size_t, std::size_t to) {
-        if (to < own) return;
-        auto& values = told[static_cast<std::size_t>(ranks_of_others[to - own])];
-        if (values.empty() || values.back().number != nodes.numbers[i])
-          values.push_back({nodes.numbers[i], areas[i]});
-      });
-    return pstripack::packed(told);
   });
-  pstripack::in_agreement(ranks, [&] {
-    areas.resize(known);
-    const std::int64_t* const others = nodes.numbers + own;  // in increasing order
-    for (const ValueOfNode& node : pstripack::Items<ValueOfNode>(parcels)) {
-      const std::int64_t* const place = std::lower_bound(others, nodes.numbers + known, node.number);
-      areas[own + static_cast<std::size_t>(place - others)] = node.value;
-    }
-  });
+  const pstripack::Halo halo(nodes.owners, ranks);
+  halo.fetch<double>(
+      ranks, [&](pstripack::LocalNode k) { return areas[k]; },
+      [&](pstripack::OutsideNode j, double area) { areas[own + index_of(j)] = area; });
   return areas;
 }
-
-}  // namespace
-
-namespace {
 
 /// Counts only cells and triangles of which is_kept(index of the node) is true.
 template <class Kept>
@@ -145,21 +115,12 @@ Quality quality_of(pstripack::Communicator& ranks, const Neighbourhood& nodes) {
 
 Quality quality_of(const files::Mesh& mesh) {
   const std::size_t n = mesh.points.size();
-  pstripack::Rings<std::int32_t> rings;
-  if (!rings.read(mesh.lists(), pstripack::threads_for(n))) throw files::NoMesh("the lists are broken");
-  std::vector<std::int32_t> end, neighbour;
-  std::vector<std::int64_t> numbers;
-  for (std::int32_t node = 1; node <= rings.size(); ++node) {
-    for (std::int32_t arc = rings.begin(node); arc < rings.end(node); ++arc) {
-      if (rings.entry(arc) < 0) throw files::NoMesh("the nodes lie in one hemisphere");
-      neighbour.push_back(rings.entry(arc));
-    }
-    end.push_back(rings.end(node));
-    numbers.push_back(node);
-  }
+  if (mesh.has_boundary()) throw files::NoMesh("the nodes lie in one hemisphere");
+  std::vector<std::int64_t> numbers(n);
+  std::iota(numbers.begin(), numbers.end(), std::int64_t{1});
   pstripack::SingleProcess alone;
   return quality_of_kept(
-      alone, {mesh.points.data(), numbers.data(), {n, end.data(), neighbour.data()}, {}},
+      alone, {mesh.points.data(), numbers.data(), {n, mesh.lend.data(), mesh.list.data()}, {}},
       [&](std::size_t i) { return mesh.layers.empty() || mesh.layers[i] != files::kLeftOut; });
 }
 

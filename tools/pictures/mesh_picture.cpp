@@ -56,7 +56,7 @@ class MeshPicture {
     count_nodes_in_view();
     const bool cells = options_.what == What::cells;
     faces_ = cells ? files::voronoi_faces(mesh_) : files::triangle_faces(mesh_);
-    if (cells) files::divide_half_turns(faces_, mesh_.lists());
+    if (cells) files::divide_half_turns(faces_);
     expect_sides_shorter_than_a_half_turn();
     draw_ground();
     draw_faces();

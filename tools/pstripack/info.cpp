@@ -18,7 +18,6 @@ namespace program {
 namespace {
 
 using files::Mesh;
-using files::Point;
 
 struct Options {
   Input input;
@@ -85,8 +84,6 @@ void info(const Options& options) {
   files::Nodes nodes = progress.step("reading", [&] { return read_nodes(options.input); });
   const std::size_t given = nodes.points.size();
   std::vector<files::Duplicate> duplicates;
-  std::vector<std::size_t> number(given);  // number in the input of each remaining node
-  for (std::size_t i = 0; i < given; ++i) number[i] = i + 1;
   const Mesh mesh = progress.step("triangulating", [&] {
     try {
       try {
@@ -94,25 +91,20 @@ void info(const Options& options) {
       } catch (const files::CoincidentNodes&) {  // left out below
       }
       duplicates = files::duplicates(nodes.points);
-      const auto is_left = [&](std::size_t n) {
-        return !std::binary_search(duplicates.begin(), duplicates.end(), files::Duplicate{n - 1, 0},
-                                   [](const auto& a, const auto& b) { return a.node < b.node; });
-      };
-      number.erase(std::stable_partition(number.begin(), number.end(), is_left), number.end());
-      std::vector<Point> left;
-      for (const std::size_t n : number) left.push_back(nodes.points[n - 1]);
-      return files::triangulate(std::move(left));
+      return files::triangulate(files::values_at(nodes.points, without(duplicates, given)));
     } catch (const files::NoMesh& e) {
       throw std::runtime_error(nodes.file + ": " + e.what());
     }
   });
   const Facts f = progress.step("measuring", [&] { return facts_of(mesh); });
-  const auto given_number = [&](std::int32_t node) { return number[static_cast<std::size_t>(node) - 1]; };
+  const std::vector<std::size_t> kept = without(duplicates, given);
+  const auto number = [&](std::int32_t n) { return nodes.number(kept[static_cast<std::size_t>(n) - 1]); };
+  const auto place = [&](std::int32_t n) { return nodes.place(kept[static_cast<std::size_t>(n) - 1]); };
 
   if (options.json) {
     const auto extreme = [&](const Extreme& e) {
-      nlohmann::ordered_json j{{"value", e.value}, {"nodes", {nodes.number(given_number(e.first) - 1)}}};
-      if (e.second > 0) j["nodes"].push_back(nodes.number(given_number(e.second) - 1));
+      nlohmann::ordered_json j{{"value", e.value}, {"nodes", {number(e.first)}}};
+      if (e.second > 0) j["nodes"].push_back(number(e.second));
       return j;
     };
     nlohmann::ordered_json pairs = nlohmann::ordered_json::array();
@@ -142,7 +134,7 @@ void info(const Options& options) {
   };
   const auto pair = [&](const Extreme& e) {
     return fmt::format("{:.6g} rad, {:.6g} degrees: {} and {}", e.value, e.value * 57.295779513082321,
-                       nodes.place(given_number(e.first) - 1), nodes.place(given_number(e.second) - 1));
+                       place(e.first), place(e.second));
   };
   line("file", fmt::format("{} ({})", nodes.file, nodes.kind));
   line("nodes", fmt::format("{}", given));
@@ -152,15 +144,13 @@ void info(const Options& options) {
   line("triangles", fmt::format("{}", f.triangles));
   line("arcs", fmt::format("{}", f.arcs));
   line("boundary", f.boundary == 0 ? "none: the triangles cover the sphere" : counted(f.boundary, "node"));
-  line("neighbours",
-       fmt::format("{} ({}) to {} ({})", f.fewest.value, nodes.place(given_number(f.fewest.first) - 1),
-                   f.most.value, nodes.place(given_number(f.most.first) - 1)));
+  line("neighbours", fmt::format("{} ({}) to {} ({})", f.fewest.value, place(f.fewest.first), f.most.value,
+                                 place(f.most.first)));
   line("tightest pair", pair(f.shortest));
   line("mean arc", fmt::format("{:.6g} rad, {:.6g} degrees", f.mean, f.mean * 57.295779513082321));
   line("longest arc", pair(f.longest));
   line("near duplicates", fmt::format("{} closer than {} of the mean arc", counted(f.near, "pair"), kNear));
-  line("smallest angle", fmt::format("{:.6g} degrees, at {}", f.sharpest.value,
-                                     nodes.place(given_number(f.sharpest.first) - 1)));
+  line("smallest angle", fmt::format("{:.6g} degrees, at {}", f.sharpest.value, place(f.sharpest.first)));
   for (const files::Duplicate& d : duplicates)
     line("duplicate", fmt::format("{} and {}", nodes.place(d.first), nodes.place(d.node)));
   print(all);

@@ -311,6 +311,17 @@ Nodes read_nodes(const Input& input) {
   return nodes;
 }
 
+std::vector<std::size_t> without(const std::vector<files::Duplicate>& duplicates, std::size_t nodes) {
+  std::vector<std::size_t> kept;
+  auto next = duplicates.begin();
+  for (std::size_t i = 0; i < nodes; ++i)
+    if (next != duplicates.end() && next->node == i)
+      ++next;
+    else
+      kept.push_back(i);
+  return kept;
+}
+
 namespace {
 
 /// Sets the numbers of each first node to the mean over its duplicates; missing numbers are ignored.
@@ -337,11 +348,10 @@ void take_means(Column& column, const std::vector<files::Duplicate>& duplicates)
 std::vector<files::Duplicate> duplicates_within(const std::vector<files::Point>& points, double within) {
   const std::vector<files::Duplicate> same = files::duplicates(points);
   if (within == 0) return same;
-  std::vector<std::size_t> first(points.size()), kept;  // first: the kept node in whose place each node is
+  const std::vector<std::size_t> kept = without(same, points.size());
+  std::vector<std::size_t> first(points.size());  // the kept node in whose place each node is
   std::iota(first.begin(), first.end(), std::size_t{0});
   for (const files::Duplicate& d : same) first[d.node] = d.first;
-  for (std::size_t i = 0; i < first.size(); ++i)
-    if (first[i] == i) kept.push_back(i);
   const files::Mesh mesh = files::triangulate(files::values_at(points, kept));
   for (const files::Duplicate& d : files::near_duplicates(mesh, within)) first[kept[d.node]] = kept[d.first];
   std::vector<files::Duplicate> all;
@@ -399,13 +409,7 @@ void drop_duplicates(Nodes& nodes, const Input& input) {
       if (column.name != kNode && column.name != kLine && column.name != kFeature)
         take_means(column, duplicates);
   }
-  std::vector<std::size_t> kept;
-  for (std::size_t i = 0, next = 0; i < nodes.points.size(); ++i)
-    if (next < duplicates.size() && duplicates[next].node == i)
-      ++next;
-    else
-      kept.push_back(i);
-  nodes.keep(kept);
+  nodes.keep(without(duplicates, nodes.points.size()));
   const bool is_one = duplicates.size() == 1;
   say(fmt::format("{}: {} dropped that {} earlier ones{}", nodes.file, counted(duplicates.size(), "node"),
                   within.radians == 0 ? fmt::format("coincide{} with", is_one ? "s" : "")

@@ -107,6 +107,9 @@ files::Nodes read_nodes(const Input& input);
 /// --duplicates-within and the input does not say so.
 void drop_duplicates(files::Nodes& nodes, const Input& input);
 
+/// The indices of these nodes but for the duplicates.
+std::vector<std::size_t> without(const std::vector<files::Duplicate>& duplicates, std::size_t nodes);
+
 /// Says how many pairs of nodes are within a millimetre of each other: most likely copies of one node that
 /// rounding has moved.
 void tell_near_nodes(const files::Nodes& nodes, const files::NearNeighbours& near);

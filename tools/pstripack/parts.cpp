@@ -1,6 +1,5 @@
 #include "pstripack/parts.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -30,14 +29,13 @@ files::MeshPart part_of(Communicator& ranks, const pstripack::scvt::Neighbourhoo
   const auto number = [&](std::int32_t place) { return nodes.numbers[place - 1]; };
   in_agreement_with_caller(ranks, [&] {
     part.nodes = stars.count;
-    std::size_t known = stars.count;
+    const std::size_t known = stars.count + nodes.owners.size();
     for (std::size_t i = 0; i < stars.count; ++i) {
       const std::size_t begin = stars.begin_of(i), end = stars.end_of(i);
       const auto here = static_cast<std::int32_t>(i) + 1;
       part.degrees.push_back(static_cast<double>(end - begin));
       for (std::size_t k = begin; k < end; ++k) {
         const std::int32_t b = stars.neighbour[k], c = stars.neighbour[k + 1 < end ? k + 1 : begin];
-        known = std::max(known, static_cast<std::size_t>(b));
         if (number(b) > number(here) && number(c) > number(here))
           part.corner.insert(part.corner.end(), {here, b, c});
       }

@@ -41,7 +41,7 @@ bool holds(const MapRing& ring, double x, double y) {
 
 Faces cells_of(const Mesh& mesh) {
   Faces cells = voronoi_faces(mesh);
-  divide_half_turns(cells, mesh.lists());
+  divide_half_turns(cells);
   return cells;
 }
 

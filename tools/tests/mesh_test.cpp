@@ -180,7 +180,7 @@ TEST(centroids, of_the_cells_of_three_nodes) {
   const Mesh mesh = triangulate(nodes);
   Faces cells = voronoi_faces(mesh);
   const auto centres = centroids(cells);
-  divide_half_turns(cells, mesh.lists());
+  divide_half_turns(cells);
   const auto of_divided = centroids(cells);
   for (std::size_t k = 0; k < 3; ++k) {
     const Point sum = minus(unit(minus(unit(nodes[k]), unit(nodes[(k + 1) % 3]))),

@@ -55,65 +55,6 @@ def area(a, b, c):
     return 2 * np.arctan2(dot(a, np.cross(b - a, c - a)), 1 + dot(a, b) + dot(b, c) + dot(c, a))
 
 
-def edges_of_converter(mesh):
-    """The vertices of the edges, from 0, in the order of libstdc++'s unordered_set, one insertion after another.
-
-    A bucket knows the entry before its first one, as libstdc++ has it."""
-    primes = [13, 29, 59, 127, 257, 541, 1109, 2357, 5087, 10273, 20753, 42043]
-
-    def code(key):
-        value = 0
-        for number in key:
-            for byte in int(number).to_bytes(8, "little"):
-                value = (value + byte) & 0xFFFFFFFF
-                value = (value + (value << 10)) & 0xFFFFFFFF
-                value ^= value >> 6
-        value = (value + (value << 3)) & 0xFFFFFFFF
-        value ^= value >> 11
-        return (value + (value << 15)) & 0xFFFFFFFF
-
-    class Table:
-        def __init__(self, size):
-            self.size, self.after, self.before_first = size, {None: None}, {}
-
-        def insert(self, key):
-            bucket = code(key) % self.size
-            if bucket in self.before_first:
-                before = self.before_first[bucket]
-                self.after[key], self.after[before] = self.after[before], key
-            else:
-                old = self.after[None]
-                self.after[key], self.after[None] = old, key
-                if old is not None:
-                    self.before_first[code(old) % self.size] = key
-                self.before_first[bucket] = None
-
-        def entries(self):
-            key = self.after[None]
-            while key is not None:
-                yield key
-                key = self.after[key]
-
-    table, count, seen = Table(primes[0]), 0, set()
-    for cell in range(len(mesh.cell)):
-        ring = list(mesh.verticesOnCell[cell, :mesh.nEdgesOnCell[cell]] - 1)
-        first = ring.index(min(ring))
-        ring = ring[first:] + ring[:first]
-        for v, w in zip(ring, ring[1:] + ring[:1]):
-            key = (min(v, w), max(v, w))
-            if key in seen:
-                continue
-            if count == table.size:
-                larger = Table(primes[primes.index(table.size) + 1])
-                for entry in table.entries():
-                    larger.insert(entry)
-                table = larger
-            table.insert(key)
-            seen.add(key)
-            count += 1
-    return np.array(list(table.entries()))
-
-
 def check_who_touches_whom(mesh):
     n_cells, n_edges, n_vertices = len(mesh.cell), len(mesh.edge), len(mesh.vertex)
     for of, n in (("Cell", n_cells), ("Edge", n_edges), ("Vertex", n_vertices)):
@@ -131,9 +72,6 @@ def check_who_touches_whom(mesh):
         ring = list(mesh.verticesOnCell[c - 1, :mesh.nEdgesOnCell[c - 1]])
         assert ring[(ring.index(v) + 1) % len(ring)] == w
     assert len(pairs) == n_edges
-    if n_edges < 42043:
-        ends = np.sort(mesh.verticesOnEdge - 1, axis=1)
-        assert (edges_of_converter(mesh) == ends).all(), "edges are not numbered as the converter does it"
     for c in range(n_cells):
         n = mesh.nEdgesOnCell[c]
         edges, cells, vertices = (a[c, :n] for a in (mesh.edgesOnCell, mesh.cellsOnCell, mesh.verticesOnCell))
