@@ -218,16 +218,16 @@ TEST(Moving, CallsWhereNodesChangeRanksHaveTheSameCodes) {
   const auto is_last = [] { return rank_of() == size_of() - 1; };
   const std::vector<std::pair<std::int32_t, std::function<void(Nodes&, Part&)>>> calls{
       {0, [](Nodes&, Part&) {}},
-      {kBadNumber,
+      {PSTRIPACK_BAD_NUMBER,
        [&](Nodes&, Part& part) {
          if (is_last()) part.numbers[3] = part.numbers[4];
        }},
-      {kBadNumber,
+      {PSTRIPACK_BAD_NUMBER,
        [&](Nodes&, Part& part) {
          if (is_last()) part.numbers.back() = 0;
        }},
-      {kCoincident, [](Nodes& p, Part&) { p[9] = p[8]; }},
-      {kBadCoordinate, [](Nodes& p, Part&) { p[9] = {}; }},
+      {PSTRIPACK_COINCIDENT, [](Nodes& p, Part&) { p[9] = p[8]; }},
+      {PSTRIPACK_BAD_COORDINATE, [](Nodes& p, Part&) { p[9] = {}; }},
       {0,
        [&](Nodes& p, Part& part) {  // one number more, one less: as many
          p.push_back({0, 0, 1});
@@ -237,7 +237,7 @@ TEST(Moving, CallsWhereNodesChangeRanksHaveTheSameCodes) {
        [&](Nodes&, Part& part) {
          if (is_last()) part.numbers.pop_back();
        }},
-      {kTooFew, [](Nodes&, Part& part) { part.numbers.clear(); }}};
+      {PSTRIPACK_TOO_FEW_NODES, [](Nodes&, Part& part) { part.numbers.clear(); }}};
   for (const auto& [code, change] : calls) {
     DistributedMesh mesh(MPI_COMM_WORLD), anew(MPI_COMM_WORLD);
     Part part = part_of(home);

@@ -50,8 +50,8 @@ std::uint64_t hash_of(const void* array, std::size_t size, std::uint64_t seed) {
 }
 
 std::int32_t code_of_count(std::int32_t n) {
-  if (n < 3) return kTooFew;
-  return n > most_nodes<std::int32_t>() ? kTooMany : 0;
+  if (n < 3) return PSTRIPACK_TOO_FEW_NODES;
+  return n > most_nodes<std::int32_t>() ? PSTRIPACK_TOO_MANY_NODES : PSTRIPACK_OK;
 }
 
 struct CallHeader {
@@ -97,7 +97,7 @@ TrmeshResult disagreement(std::int32_t n, std::int64_t hash, MpiCommunicator& ra
   auto rank = first_other(n);
   if (rank == ranks.size()) rank = first_other(hash);
   const std::int64_t n_there = ranks.all_gather_one(n)[rank];
-  return {kRanksDisagree, n_there, rank};
+  return {PSTRIPACK_RANKS_DISAGREE, n_there, rank};
 }
 
 /// For Arrays::on_every_rank, where every rank has all nodes. Collective.
@@ -134,7 +134,7 @@ Share take_slice(const TrmeshCall& call, bool wants_cost, MpiCommunicator& ranks
   else if (count_code != 0)
     share.result = {count_code};
   else if (bad.exists())
-    share.result = {kBadCoordinate, bad.value + 1};
+    share.result = {PSTRIPACK_BAD_COORDINATE, bad.value + 1};
   return share;
 }
 
@@ -177,7 +177,7 @@ Share receive_slice(const TrmeshCall& call, Arrays arrays, bool wants_cost, MpiC
   if (is_root) ranks.finish();
   agree(ranks, outcome, bad, share.check.lengths_are_one, share.check.deviation);
   outcome.accept();
-  if (bad.exists()) share.result = {kBadCoordinate, bad.value + 1};
+  if (bad.exists()) share.result = {PSTRIPACK_BAD_COORDINATE, bad.value + 1};
   return share;
 }
 
@@ -188,7 +188,8 @@ Share share_of(const TrmeshCall& call, Arrays arrays, bool wants_cost, MpiCommun
   Share share = arrays == Arrays::on_every_rank ? take_slice(call, wants_cost, ranks)
                                                 : receive_slice(call, arrays, wants_cost, ranks);
   const Point(&corners)[3] = share.header.corners;
-  if (share.result.ier == 0 && left(corners[0], corners[1], corners[2]) == 0) share.result = {kCollinear};
+  if (share.result.ier == 0 && left(corners[0], corners[1], corners[2]) == 0)
+    share.result = {PSTRIPACK_COLLINEAR};
   return share;
 }
 
@@ -200,7 +201,22 @@ class ByRanks {
       : ranks_(ranks), arrays_(arrays), lists_(lists), share_(share), cost_(cost) {}
 
   /// Collective, as triangulate_and_write() asks for.
-  std::optional<Coincidence> triangulate(std::size_t n);
+  std::optional<Coincidence> triangulate(std::size_t n) {
+    const auto me = static_cast<std::size_t>(ranks_.rank());
+    find_slices(n);
+    const std::size_t count = begin_[me + 1] - begin_[me];
+    if (n < this->n()) {  // the second try, without nodes that coincide
+      share_.check = check_nodes(share_.nodes, count);
+      agree_on(share_.check, ranks_);
+      stars_ = {};
+    }
+    stars_ = pstripack::triangulate<std::int32_t>(slice(count), share_.check, share_.header.corners,
+                                                  {1, 2, 3}, ranks_, options_, &cost_);
+    if (stars_.coincident.empty()) return std::nullopt;
+    std::optional<Coincidence> first;
+    in_agreement(ranks_, [&] { first = first_coincidence(stars_.coincident); });
+    return first;
+  }
   void write() {
     ranks_.set_phase("gather the lists");
     const PhaseTimer timer(&cost_, ParallelCost::gather, &ranks_);
@@ -214,7 +230,20 @@ class ByRanks {
     return {share_.nodes, count, nullptr, static_cast<std::int64_t>(share_.first) + 1,
             share_.of_all_ranks ? &*share_.of_all_ranks : nullptr};
   }
-  void find_slices(std::size_t n);
+  /// Sets the slices for the first n nodes. Collective.
+  void find_slices(std::size_t n) {
+    if (!knows_slices_) {
+      in_agreement(ranks_, [&] {
+        begin_.resize(static_cast<std::size_t>(ranks_.size()) + 1);
+        options_ = options_from_environment(share_.count);
+      });
+      knows_slices_ = true;  // on all ranks or on none
+      options_.partition = share_.header.partition;
+      cost_.set_threads({options_.threads, options_.thread_limit});
+    }
+    for (std::size_t r = 0; r < begin_.size(); ++r)
+      begin_[r] = std::min(n, share_.header.slice(static_cast<int>(r), ranks_));
+  }
 
   MpiCommunicator& ranks_;
   const Arrays arrays_;
@@ -227,38 +256,6 @@ class ByRanks {
   bool knows_slices_ = false;
   Stars<std::int32_t> stars_;
 };
-
-/// Sets the slices for the first n nodes. Collective.
-void ByRanks::find_slices(std::size_t n) {
-  if (!knows_slices_) {
-    in_agreement(ranks_, [&] {
-      begin_.resize(static_cast<std::size_t>(ranks_.size()) + 1);
-      options_ = options_from_environment(share_.count);
-    });
-    knows_slices_ = true;  // on all ranks or on none
-    options_.partition = share_.header.partition;
-    cost_.set_threads({options_.threads, options_.thread_limit});
-  }
-  for (std::size_t r = 0; r < begin_.size(); ++r)
-    begin_[r] = std::min(n, share_.header.slice(static_cast<int>(r), ranks_));
-}
-
-std::optional<Coincidence> ByRanks::triangulate(std::size_t n) {
-  const auto me = static_cast<std::size_t>(ranks_.rank());
-  find_slices(n);
-  const std::size_t count = begin_[me + 1] - begin_[me];
-  if (n < this->n()) {  // the second try, without nodes that coincide
-    share_.check = check_nodes(share_.nodes, count);
-    agree_on(share_.check, ranks_);
-    stars_ = {};
-  }
-  stars_ = pstripack::triangulate<std::int32_t>(slice(count), share_.check, share_.header.corners, {1, 2, 3},
-                                                ranks_, options_, &cost_);
-  if (stars_.coincident.empty()) return std::nullopt;
-  std::optional<Coincidence> first;
-  in_agreement(ranks_, [&] { first = first_coincidence(stars_.coincident); });
-  return first;
-}
 
 /// With more ranks a cold call takes less time than a warm one on each of them.
 constexpr int kMostRanksForWarmStart = 8;

@@ -28,15 +28,15 @@ void DistributedEvaluator::triangulate_mesh(const std::vector<Point>& generators
   const std::int32_t code =
       mesh_.triangulate(static_cast<std::int64_t>(generators.size()), xyz, numbers_.data(), report_, true);
   switch (code) {
-    case 0:
+    case PSTRIPACK_OK:
       return;
-    case -2:
+    case PSTRIPACK_COLLINEAR:
       throw GeneratorsInHemisphere();
-    case -5:
+    case PSTRIPACK_BAD_COORDINATE:
       throw BadGenerators("generator " + std::to_string(mesh_.error_point(0)) + " has no direction");
-    case -9:
+    case PSTRIPACK_COINCIDENT:
       throw CoincidentGenerators(mesh_.error_point(0), mesh_.error_point(1));
-    case -10:
+    case PSTRIPACK_BAD_NUMBER:
       throw BadNumber(mesh_.error_point(0));
     default:
       throw AgreedFailure(code);

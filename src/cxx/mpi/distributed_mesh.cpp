@@ -92,7 +92,7 @@ std::int32_t DistributedMesh::triangulate_into(const LocalNodes& points, const N
       numbers = BlockArray<std::int64_t>(points.count);
     });
     corners = find_corners(counted, ranks_);
-    if (!corners) return kCollinear;
+    if (!corners) return PSTRIPACK_COLLINEAR;
   }
   const auto& [a, b, c] = *corners;
   options.partition = numbering.partition;
@@ -106,7 +106,7 @@ std::int32_t DistributedMesh::triangulate_into(const LocalNodes& points, const N
     const Coincidence first = first_coincidence_of(stars.coincident, points, ranges);
     error_point_[0] = first.l;
     error_point_[1] = first.m;
-    return kCoincident;
+    return PSTRIPACK_COINCIDENT;
   }
 
   const PhaseTimer timer(&cost, ParallelCost::lists, &ranks_);
@@ -292,16 +292,16 @@ std::int32_t DistributedMesh::gather(std::int32_t root, const ListArrays& lists,
 }
 
 std::int32_t DistributedMesh::gather_stars(std::int32_t root, const ListArrays& lists) {
-  if (empty()) return kEmpty;
+  if (empty()) return PSTRIPACK_EMPTY_MESH;
   const std::int64_t* const roots = ranks_.all_gather_one(root);
   for (int r = 1; r < ranks_.size(); ++r)
     if (roots[r] != roots[0]) {
       wrong_argument_ = {r, roots[r]};
-      return kRanksDisagree;
+      return PSTRIPACK_RANKS_DISAGREE;
     }
-  if (root < kEveryRank || root >= ranks_.size()) return kNoSuchRank;
-  if (!numbers_are_dense_) return kBadNumber;
-  if (total_ > most_nodes<std::int32_t>()) return kTooMany;
+  if (root < kEveryRank || root >= ranks_.size()) return PSTRIPACK_BAD_COMM;
+  if (!numbers_are_dense_) return PSTRIPACK_BAD_NUMBER;
+  if (total_ > most_nodes<std::int32_t>()) return PSTRIPACK_TOO_MANY_NODES;
   ranks_.set_phase("gather the lists");
   const auto n = static_cast<std::size_t>(total_), size = static_cast<std::size_t>(ranks_.size()),
              me = static_cast<std::size_t>(ranks_.rank());

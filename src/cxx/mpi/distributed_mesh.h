@@ -47,7 +47,8 @@ class DistributedMesh {
     homes_.reset();
   }
   std::int64_t error_point(int i) const { return error_point_[i]; }
-  /// After kBadSize and kTooMany of triangulate(): its n. After kRanksDisagree of gather(): its root.
+  /// After PSTRIPACK_BAD_SIZE and PSTRIPACK_TOO_MANY_NODES of triangulate(): its n. After
+  /// PSTRIPACK_RANKS_DISAGREE of gather(): its root.
   const WrongArgument& wrong_argument() const { return wrong_argument_; }
 
   const OwnStars& own() const { return own_; }
@@ -56,7 +57,8 @@ class DistributedMesh {
   bool home(std::int64_t n, const double* xyz, std::int32_t* rank) const;
 
   /// Gathers the lists. Returns the result code. root: the rank that has the arrays, or kEveryRank; ranks
-  /// that disagree in it get kRanksDisagree. `report` is filled if triangulate() has filled one. Collective.
+  /// that disagree in it get PSTRIPACK_RANKS_DISAGREE. `report` is filled if triangulate() has filled one.
+  /// Collective.
   static constexpr std::int32_t kEveryRank = -1;
   std::int32_t gather(std::int32_t root, const ListArrays& lists, Report* report = nullptr);
 

@@ -13,13 +13,13 @@
 #include <thread>
 
 #include "base/system.h"
+#include "capi/pstripack.h"
 #include "parallel/agreement.h"
 #include "parallel/cost.h"
 
 namespace pstripack {
 namespace {
 
-constexpr std::int32_t kOutOfMemory = -6, kBadCommunicator = -8;
 constexpr int kTag = 0;
 
 /// While an object of this class exists, MPI returns errors about invalid communicators instead of ending
@@ -90,10 +90,10 @@ class BackOff {
 
 MpiCommunicator::MpiCommunicator(MPI_Comm comm, std::size_t longest_message, std::int32_t code)
     : longest_message_(longest_message) {
-  if (!is_usable(comm)) throw Failure(kBadCommunicator);
+  if (!is_usable(comm)) throw Failure(PSTRIPACK_BAD_COMM);
   {
     const NoAbort no_abort;
-    if (MPI_Comm_dup(comm, &comm_) != MPI_SUCCESS) throw Failure(kBadCommunicator);
+    if (MPI_Comm_dup(comm, &comm_) != MPI_SUCCESS) throw Failure(PSTRIPACK_BAD_COMM);
   }
   MPI_Comm_set_errhandler(comm_, MPI_ERRORS_RETURN);
   MPI_Comm_rank(comm_, &rank_);

@@ -86,7 +86,7 @@ Numbering check_all(const LocalNodes& points, bool wants_report, bool numbers_ar
     }
     numbering.total += counts[r];
   }
-  if (numbering.total < 3) return failed(kTooFew, 0);
+  if (numbering.total < 3) return failed(PSTRIPACK_TOO_FEW_NODES, 0);
 
   Smallest low, bad;
   Largest high;
@@ -107,11 +107,11 @@ Numbering check_all(const LocalNodes& points, bool wants_report, bool numbers_ar
   numbering.low = low.value;
   numbering.high = high.value;
   numbering.partition = partition.value;
-  if (numbering.low < 1) return failed(kBadNumber, numbering.low);
-  if (bad.exists()) return failed(kBadCoordinate, bad.value);
+  if (numbering.low < 1) return failed(PSTRIPACK_BAD_NUMBER, numbering.low);
+  if (bad.exists()) return failed(PSTRIPACK_BAD_COORDINATE, bad.value);
   if (are_known.value) return numbering;
   const std::int64_t repeated = first_repeated(points, numbering, ranks);
-  if (repeated != kNone) return failed(kBadNumber, repeated);
+  if (repeated != kNone) return failed(PSTRIPACK_BAD_NUMBER, repeated);
   return numbering;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "capi/pstripack.h"
 #include "mpi/mpi_communicator.h"
 #include "parallel/divide.h"
 #include "parallel/local_nodes.h"
@@ -13,17 +14,14 @@
 
 namespace pstripack {
 
-/// Result codes of capi/pstripack_mpi.h.
-constexpr std::int32_t kTooFew = -1, kCollinear = -2, kEmpty = -3, kTooMany = -4, kBadCoordinate = -5,
-                       kRanksDisagree = -7, kNoSuchRank = -8, kCoincident = -9, kBadNumber = -10,
-                       kBadSize = -100;
-
 /// A rank must bring fewer points than this.
 constexpr std::size_t kMostPoints = std::size_t{1} << 29;
 
 /// 0 if a rank may bring n points, else a result code.
 constexpr std::int32_t code_of_rank_count(std::int64_t n) {
-  return n < 0 ? kBadSize : n < static_cast<std::int64_t>(kMostPoints) ? 0 : kTooMany;
+  return n < 0                                        ? PSTRIPACK_BAD_SIZE
+         : n < static_cast<std::int64_t>(kMostPoints) ? PSTRIPACK_OK
+                                                      : PSTRIPACK_TOO_MANY_NODES;
 }
 
 /// A wrong argument, and the first rank that has passed it; the same on every rank.

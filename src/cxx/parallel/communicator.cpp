@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "capi/pstripack.h"
+
 namespace pstripack {
 
 Parcels SingleProcess::all_gather(const void* bytes, std::size_t size) {
@@ -17,7 +19,6 @@ Parcels SingleProcess::exchange(const Parcels& outgoing, std::int32_t code) {
 }
 
 std::int32_t code_of(const std::exception_ptr& error) {
-  constexpr std::int32_t out_of_memory = -6;
   try {
     std::rethrow_exception(error);
   } catch (const Failure& failure) {
@@ -25,7 +26,7 @@ std::int32_t code_of(const std::exception_ptr& error) {
   } catch (const AgreedFailure& failure) {
     return failure.code;
   } catch (...) {
-    return out_of_memory;
+    return PSTRIPACK_OUT_OF_MEMORY;
   }
 }
 
