@@ -109,32 +109,20 @@ inline pstripack_scvt_options checked(const pstripack_scvt_options* given) {
 inline scvt::RunOptions run_options(const pstripack_scvt_options& options) {
   scvt::RunOptions run;
   run.levels = options.start != PSTRIPACK_SCVT_RANDOM;
-  run.method = options.method == PSTRIPACK_SCVT_LLOYD ? scvt::Method::lloyd : scvt::Method::newton;
+  run.method = static_cast<scvt::Method>(options.method);
   if (options.tolerance != 0) run.tolerance = options.tolerance;
   if (options.most_evaluations != 0) run.most_evaluations = options.most_evaluations;
   run.well_centred = options.well_centred != 0;
   if (options.seed != 0) run.seed = static_cast<std::uint64_t>(options.seed);
   if (options.progress != nullptr)
     run.progress = [progress = options.progress, user = options.user](const scvt::Progress& p) {
-      const pstripack_scvt_progress told{p.generators, p.evaluations, p.gradient, p.energy};
-      return progress(&told, user) == 0;
+      return progress(&p, user) == 0;
     };
   return run;
 }
 
 inline std::int32_t reason_of(scvt::End end, const scvt::Repair& repair) {
-  if (repair.obtuse > 0) return PSTRIPACK_SCVT_NOT_WELL_CENTRED;
-  switch (end) {
-    case scvt::End::converged:
-      return PSTRIPACK_SCVT_CONVERGED;
-    case scvt::End::evaluations:
-      return PSTRIPACK_SCVT_EVALUATIONS;
-    case scvt::End::stopped:
-      return PSTRIPACK_SCVT_STOPPED;
-    case scvt::End::stalled:
-      break;
-  }
-  return PSTRIPACK_SCVT_STALLED;
+  return repair.obtuse > 0 ? std::int32_t{PSTRIPACK_SCVT_NOT_WELL_CENTRED} : static_cast<std::int32_t>(end);
 }
 
 }  // namespace pstripack

@@ -5,20 +5,16 @@
 #include <utility>
 #include <vector>
 
+#include "capi/pstripack.h"
 #include "geometry/point.h"
 #include "scvt/evaluator.h"
 #include "scvt/vectors.h"
 
 namespace pstripack::scvt {
 
-enum class Method { newton, lloyd };
+enum class Method { newton = PSTRIPACK_SCVT_NEWTON, lloyd = PSTRIPACK_SCVT_LLOYD };
 
-struct Progress {
-  std::int64_t generators = 0;   ///< number of generators of all ranks
-  std::int64_t evaluations = 0;  ///< triangulations with integrals
-  double gradient = 0;           ///< see Options::tolerance
-  double energy = 0;
-};
+using Progress = pstripack_scvt_progress;
 
 struct Options {
   Method method = Method::newton;
@@ -53,16 +49,17 @@ struct State {
 };
 
 enum class End {
-  converged,
-  evaluations,  ///< the bound most_evaluations is reached
-  stopped,      ///< the callback returned false
-  stalled  ///< the energy does not fall any more, not even by Lloyd's method: rounding, or a rough density
+  converged = PSTRIPACK_SCVT_CONVERGED,
+  evaluations = PSTRIPACK_SCVT_EVALUATIONS,  ///< the bound most_evaluations is reached
+  stopped = PSTRIPACK_SCVT_STOPPED,          ///< the callback returned false
+  /// the energy does not fall any more, not even by Lloyd's method: rounding, or a rough density
+  stalled = PSTRIPACK_SCVT_STALLED
 };
 
 struct Result {
   End end = End::converged;
-  Progress progress;  ///< of the generators in the state
-  Cells cells;        ///< of the generators in the state, of the density times 2^-exponent
+  Progress progress{};  ///< of the generators in the state
+  Cells cells;          ///< of the generators in the state, of the density times 2^-exponent
 };
 
 /// Moves the generators in the state until the gradient is at most the tolerance. The energy never rises.
