@@ -66,8 +66,7 @@ TEST(ExactSum, DoesNotDependOnTheOrder) {
   for (std::size_t i = 0; i < words.size(); ++i) words[i] += odd.words()[i];
   EXPECT_EQ(ExactSum::of(words).words(), forward.words());
   even += odd;
-  even -= backward;
-  EXPECT_EQ(even.value(), 0);
+  EXPECT_EQ(even.words(), backward.words());
 }
 
 TEST(ExactSum, OfTermsThatCancelIsExact) {
@@ -229,11 +228,11 @@ TEST(Cells, PullIsTheGradientOfTheEnergy) {
     for (const std::size_t n : {12, 3000}) {
       SCOPED_TRACE(n);
       const Tessellated t = relaxed(n, *density, 1);
-      const auto energy = [&](const std::vector<Point>& points) {
+      const auto energy = [&](const std::vector<Point>& points, double sign) {
         Cells cells;
         LocalEvaluator(*density).evaluate(points, cells);
         ExactSum sum;
-        for (const double e : cells.energy) sum.add(e);
+        for (const double e : cells.energy) sum.add(sign * e);
         return sum;
       };
       Cells cells;
@@ -244,9 +243,9 @@ TEST(Cells, PullIsTheGradientOfTheEnergy) {
           const Point g = t.points[i], direction = point_sets::normalized(cross(axis, g));
           std::vector<Point> points = t.points;
           points[i] = point_sets::normalized(plus(g, times(step, direction)));
-          ExactSum difference = energy(points);
+          ExactSum difference = energy(points, 1);
           points[i] = point_sets::normalized(plus(g, times(-step, direction)));
-          difference -= energy(points);
+          difference += energy(points, -1);
           EXPECT_NEAR(difference.value() / (2 * step), -2 * dot(cells.pull[i], direction),
                       2e-4 * cells.mass[i] * width);
         }

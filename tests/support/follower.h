@@ -48,7 +48,7 @@ class Follower {
     }
     flips += mesh_.flips();
     Lists lists = canonical_lists(rings_);
-    if (mesh_.change_count() > nodes.size() / 4) mesh_.forget_changes();
+    if (mesh_.changes().size() > nodes.size() / 4) mesh_.forget_changes();
     return lists;
   }
   std::size_t flips = 0;

@@ -72,8 +72,8 @@ class MovingMesh {
   /// coordinates with their tie rule; flips() is then the number of arcs flipped. Returns false if a
   /// triangle is not counterclockwise, an arc cannot be flipped, or a new triangulation is faster; the mesh
   /// must then be discarded. All nodes must have has_length_for(confirm). Why the tests suffice:
-  /// docs/internals/design.md, "Warm start". Parallel. Throws std::bad_alloc. Confirm::directions: also false if the
-  /// mesh may not be that of the directions.
+  /// docs/internals/design.md, "Warm start". Parallel. Throws std::bad_alloc. Confirm::directions: also false
+  /// if the mesh may not be that of the directions.
   bool repair(Confirm confirm = Confirm::nothing);
   std::size_t flips() const { return flips_; }
 
@@ -119,7 +119,6 @@ class MovingMesh {
   };
   /// All changes, in increasing order of the nodes. Throws std::bad_alloc.
   std::vector<Change> changes() const;
-  std::size_t change_count() const { return changed_.size(); }
   std::size_t degree(std::size_t k) const { return stars_[inside_[k]].count; }
   /// Calls visit(j) for each arc from a node here to the node outside size() + j.
   template <class Visit>

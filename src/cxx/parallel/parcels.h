@@ -74,10 +74,6 @@ class ParcelReader {
     at_ += n * sizeof(Item);
     return items;
   }
-  template <class Item>
-  const Item& next() {
-    return *array<Item>(1);
-  }
 
  private:
   const unsigned char *at_, *end_;

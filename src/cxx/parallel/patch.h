@@ -55,7 +55,25 @@ class Patch {
   /// Sorts the patch's nodes and those of `closing` that it does not know: nodes of the sample, three of
   /// them not on one great circle, which close the hull on the far side of the sphere. The workspace must
   /// outlive the patch and its rings. Throws HiddenNode if a quick test finds one, std::bad_alloc.
-  void set_up(const std::vector<SentNode>& closing, Workspace& workspace);
+  void set_up(const std::vector<SentNode>& closing, Workspace& workspace) {
+    if (nodes_.own == 0) return;
+    const auto is_own = [&](const SentNode& r) { return partition_->owner(hull_.places()(r.point)) == id_; };
+    const SentNode *const margin = nodes_.first + nodes_.own, *const end = nodes_.first + nodes_.count();
+    assert(std::all_of(nodes_.first, margin, is_own) && std::none_of(margin, end, is_own));
+    // The margin is looked up by number: whether a node is in it depends on how distances were rounded.
+    NumberTable<bool> is_in_margin(closing.size());
+    for (const SentNode& r : closing) is_in_margin.insert(r.number, false);
+    for (const SentNode* r = margin; r < end; ++r)
+      if (bool* const found = is_in_margin.find(r->number)) *found = true;
+    std::vector<SentNode> leading;
+    for (const SentNode& r : closing) {
+      const bool is_known = *is_in_margin.find(r.number) || is_own(r);
+      assert(is_known ==
+             std::any_of(nodes_.first, end, [&](const SentNode& known) { return known.number == r.number; }));
+      if (!is_known) leading.push_back(r);
+    }
+    hull_.set_up(nodes_, leading, workspace);
+  }
   /// Triangulates them. Throws HiddenNode, std::bad_alloc.
   void triangulate() {
     if (nodes_.own > 0) hull_.build();
@@ -63,14 +81,67 @@ class Patch {
 
   /// Adds nodes of other patches to the triangulation, unless it has them. Many are added along a curve, so
   /// that the search for each begins near it. Throws HiddenNode, std::bad_alloc.
-  void take_in(std::vector<SentNode> nodes);
+  void take_in(std::vector<SentNode> nodes) {
+    if (nodes_.own == 0) return;
+    // Each node once: no cell of the curve could tell equal ones apart. Triangles share corners, so many are
+    // in.
+    NumberTable<bool> met(nodes.size());
+    nodes.erase(std::remove_if(nodes.begin(), nodes.end(),
+                               [&](const SentNode& r) {
+                                 return hull_.has_taken_in(r.number) || !met.insert(r.number, true).second;
+                               }),
+                nodes.end());
+    constexpr std::size_t kMany = 1000;  // sorting fewer would take longer than the searches
+    if (nodes.size() >= kMany) sort_along_curve(nodes);
+    for (const SentNode& r : nodes) hull_.take_in(r);
+  }
 
   /// The answer of this patch to another's question: some nodes that lie above the triangle, if it knows any.
   /// A patch that answers takes in the corners of the question. Throws HiddenNode, std::bad_alloc.
-  std::vector<SentNode> answer(const Question& question);
+  std::vector<SentNode> answer(const Question& question) {
+    assert(nodes_.own > 0);  // among them is a corner
+    if (!hull_.coincident().empty()) return {};
+    // The highest few: they change the asker's triangulation most, and the others may not matter then.
+    constexpr std::size_t kFew = 64;
+    HullNode v[3];
+    for (int i = 0; i < 3; ++i) v[i] = hull_.take_in(question.corner[i]);
+    std::vector<SentNode> nodes;
+    for (const HullNode w : nodes_above(v, kFew)) nodes.push_back(hull_.node(w));
+    return nodes;
+  }
 
   /// Finds the triangles that other patches must have, too. Throws std::bad_alloc.
-  void update_lists();
+  void update_lists() {
+    const std::size_t first_new = listed_;
+    listed_ = known();
+    if (first_new == listed_ || partition_->patches() == 1) return;
+    counts_.assign(static_cast<std::size_t>(partition_->patches()), 0);
+    // A face that is new since the last time has a new node.
+    entries_.erase(std::remove_if(entries_.begin(), entries_.end(),
+                                  [&](const Entry& e) {
+                                    const auto& v = hull_.face(e.face).vertex;
+                                    return v[0] >= first_new || v[1] >= first_new || v[2] >= first_new;
+                                  }),
+                   entries_.end());
+    hull_.for_each_face_at_border(first_new, [&](HullFace t) {
+      if (!hull_.is_front(t)) return;
+      Entry entry{listed(t), t, {kNone, kNone}};
+      for (const HullNode v : corners(t)) {
+        if (hull_.is_own(v)) continue;
+        const PatchNumber owner = partition_->owner(hull_.place(v));
+        entry.other[entry.other[0] != kNone && entry.other[0] != owner] = owner;
+      }
+      entries_.push_back(entry);
+    });
+    assert(std::all_of(entries_.begin(), entries_.end(),
+                       [&](const Entry& e) { return e.triangle == listed(e.face); }));
+    assert([&] {
+      std::size_t faces = 0;
+      hull_.for_each_face_at_border(0, [&](HullFace t) { faces += hull_.is_front(t); });
+      return faces == entries_.size();
+    }());
+    for_each_listed([&](PatchNumber q, const Listed<Int>&) { ++counts_[static_cast<std::size_t>(q)]; });
+  }
   /// The number of triangles in the list for each patch; empty if this patch has none.
   const std::vector<std::size_t>& list_counts() const { return counts_; }
   /// Calls visit(q, triangle) for each triangle of the list for each patch q.
@@ -82,7 +153,22 @@ class Patch {
   }
   /// Compares the lists with those that the other patches have sent. Returns the triangles that these lack,
   /// as questions to them. Throws std::bad_alloc.
-  std::vector<Question> lacking(const std::vector<ListOfOther<Int>>& lists) const;
+  std::vector<Question> lacking(const std::vector<ListOfOther<Int>>& lists) const {
+    Table<Listed<Int>, std::uint32_t> place(entries_.size());
+    for (std::uint32_t e = 0; e < entries_.size(); ++e) place.insert(entries_[e].triangle, e);
+    std::vector<std::array<bool, 2>> has(entries_.size());  // the other patch has the triangle
+    for (const ListOfOther<Int>& list : lists)
+      for (const Listed<Int>* t = list.first; t < list.first + list.count; ++t)
+        if (const std::uint32_t* const e = place.find(*t)) has[*e][entries_[*e].other[1] == list.from] = true;
+    std::vector<Question> questions;
+    for (std::size_t e = 0; e < entries_.size(); ++e)
+      for (std::size_t k = 0; k < 2; ++k) {
+        if (entries_[e].other[k] == kNone || has[e][k]) continue;
+        const auto [a, b, c] = corners(entries_[e].face);
+        questions.push_back({{hull_.node(a), hull_.node(b), hull_.node(c)}, id_, entries_[e].other[k]});
+      }
+    return questions;
+  }
 
   /// After the last lists: the triangulation. Throws HiddenNode.
   void finish() {
@@ -137,7 +223,50 @@ class Patch {
     return {static_cast<Int>(hull_.number(a)), static_cast<Int>(hull_.number(b)),
             static_cast<Int>(hull_.number(c))};
   }
-  std::vector<HullNode> nodes_above(const HullNode (&v)[3], std::size_t most) const;
+  /// The `most` highest of the nodes above the triangle of three others; empty only if there are none.
+  std::vector<HullNode> nodes_above(const HullNode (&v)[3], std::size_t most) const {
+    std::vector<HullNode> above;
+    const auto add_those_above = [&](HullNode node, std::size_t faces) {
+      HullCorner corner = hull_.corner(node);
+      do {
+        const HullNode w = hull_.face(face_of(corner)).vertex[next_edge(edge_of(corner))];
+        if (w != v[0] && w != v[1] && w != v[2] && hull_.growing().above(v[0], v[1], v[2], w))
+          above.push_back(w);
+        corner = hull_.counterclockwise(corner);
+      } while (--faces > 0 && corner != hull_.corner(node));
+    };
+    // All nodes lie in the cone that the hull makes at a corner, so one of the neighbours of that corner lies
+    // above if any node does. The corner with the fewest: its ring closes first.
+    HullCorner at[3] = {hull_.corner(v[0]), hull_.corner(v[1]), hull_.corner(v[2])};
+    std::uint32_t least = 0;
+    do {
+      least = least == 2 ? 0 : least + 1;
+      at[least] = hull_.counterclockwise(at[least]);
+    } while (at[least] != hull_.corner(v[least]));
+    bool is_face = false;
+    hull_.for_each_face_at(v[least], [&](HullFace t, std::uint32_t i) {
+      const auto& corner = hull_.face(t).vertex;
+      is_face |=
+          corner[next_edge(i)] == v[next_edge(least)] && corner[previous_edge(i)] == v[previous_edge(least)];
+    });
+    if (is_face) return above;
+    constexpr std::size_t kManyFaces = 512;  // not all at a node with very many neighbours
+    add_those_above(v[least], SIZE_MAX);
+    if (above.empty()) return above;
+    for (std::uint32_t k = 0; k < 3; ++k)
+      if (k != least) add_those_above(v[k], kManyFaces);
+    std::sort(above.begin(), above.end());
+    above.erase(std::unique(above.begin(), above.end()), above.end());
+    if (above.size() > most) {
+      const Point a = hull_.place(v[0]);
+      const Point normal = cross(minus(hull_.place(v[1]), a), minus(hull_.place(v[2]), a));
+      const auto height = [&](HullNode w) { return dot(normal, minus(hull_.place(w), a)); };
+      std::nth_element(above.begin(), above.begin() + static_cast<std::ptrdiff_t>(most), above.end(),
+                       [&](HullNode s, HullNode t) { return height(s) > height(t); });
+      above.resize(most);
+    }
+    return above;
+  }
 
   PatchNumber id_;
   const Partition* partition_;
@@ -148,158 +277,5 @@ class Patch {
   std::size_t listed_ = 0;  ///< known() when the lists were made
   Hull finished_;
 };
-
-// ---- its nodes --------------------------------------------------------------------------------------
-
-template <class Int>
-void Patch<Int>::set_up(const std::vector<SentNode>& closing, Workspace& workspace) {
-  if (nodes_.own == 0) return;
-  const auto is_own = [&](const SentNode& r) { return partition_->owner(hull_.places()(r.point)) == id_; };
-  const SentNode *const margin = nodes_.first + nodes_.own, *const end = nodes_.first + nodes_.count();
-  assert(std::all_of(nodes_.first, margin, is_own) && std::none_of(margin, end, is_own));
-  // The margin is looked up by number: whether a node is in it depends on how distances were rounded.
-  NumberTable<bool> is_in_margin(closing.size());
-  for (const SentNode& r : closing) is_in_margin.insert(r.number, false);
-  for (const SentNode* r = margin; r < end; ++r)
-    if (bool* const found = is_in_margin.find(r->number)) *found = true;
-  std::vector<SentNode> leading;
-  for (const SentNode& r : closing) {
-    const bool is_known = *is_in_margin.find(r.number) || is_own(r);
-    assert(is_known ==
-           std::any_of(nodes_.first, end, [&](const SentNode& known) { return known.number == r.number; }));
-    if (!is_known) leading.push_back(r);
-  }
-  hull_.set_up(nodes_, leading, workspace);
-}
-
-template <class Int>
-void Patch<Int>::take_in(std::vector<SentNode> nodes) {
-  if (nodes_.own == 0) return;
-  // Each node once: no cell of the curve could tell equal ones apart. Triangles share corners, so many are
-  // in.
-  NumberTable<bool> met(nodes.size());
-  nodes.erase(std::remove_if(nodes.begin(), nodes.end(),
-                             [&](const SentNode& r) {
-                               return hull_.has_taken_in(r.number) || !met.insert(r.number, true).second;
-                             }),
-              nodes.end());
-  constexpr std::size_t kMany = 1000;  // sorting fewer would take longer than the searches
-  if (nodes.size() >= kMany) sort_along_curve(nodes);
-  for (const SentNode& r : nodes) hull_.take_in(r);
-}
-
-// ---- lists ------------------------------------------------------------------------------------------
-
-template <class Int>
-void Patch<Int>::update_lists() {
-  const std::size_t first_new = listed_;
-  listed_ = known();
-  if (first_new == listed_ || partition_->patches() == 1) return;
-  counts_.assign(static_cast<std::size_t>(partition_->patches()), 0);
-  // A face that is new since the last time has a new node.
-  entries_.erase(std::remove_if(entries_.begin(), entries_.end(),
-                                [&](const Entry& e) {
-                                  const auto& v = hull_.face(e.face).vertex;
-                                  return v[0] >= first_new || v[1] >= first_new || v[2] >= first_new;
-                                }),
-                 entries_.end());
-  hull_.for_each_face_at_border(first_new, [&](HullFace t) {
-    if (!hull_.is_front(t)) return;
-    Entry entry{listed(t), t, {kNone, kNone}};
-    for (const HullNode v : corners(t)) {
-      if (hull_.is_own(v)) continue;
-      const PatchNumber owner = partition_->owner(hull_.place(v));
-      entry.other[entry.other[0] != kNone && entry.other[0] != owner] = owner;
-    }
-    entries_.push_back(entry);
-  });
-  assert(std::all_of(entries_.begin(), entries_.end(),
-                     [&](const Entry& e) { return e.triangle == listed(e.face); }));
-  assert([&] {
-    std::size_t faces = 0;
-    hull_.for_each_face_at_border(0, [&](HullFace t) { faces += hull_.is_front(t); });
-    return faces == entries_.size();
-  }());
-  for_each_listed([&](PatchNumber q, const Listed<Int>&) { ++counts_[static_cast<std::size_t>(q)]; });
-}
-
-template <class Int>
-std::vector<Question> Patch<Int>::lacking(const std::vector<ListOfOther<Int>>& lists) const {
-  Table<Listed<Int>, std::uint32_t> place(entries_.size());
-  for (std::uint32_t e = 0; e < entries_.size(); ++e) place.insert(entries_[e].triangle, e);
-  std::vector<std::array<bool, 2>> has(entries_.size());  // the other patch has the triangle
-  for (const ListOfOther<Int>& list : lists)
-    for (const Listed<Int>* t = list.first; t < list.first + list.count; ++t)
-      if (const std::uint32_t* const e = place.find(*t)) has[*e][entries_[*e].other[1] == list.from] = true;
-  std::vector<Question> questions;
-  for (std::size_t e = 0; e < entries_.size(); ++e)
-    for (std::size_t k = 0; k < 2; ++k) {
-      if (entries_[e].other[k] == kNone || has[e][k]) continue;
-      const auto [a, b, c] = corners(entries_[e].face);
-      questions.push_back({{hull_.node(a), hull_.node(b), hull_.node(c)}, id_, entries_[e].other[k]});
-    }
-  return questions;
-}
-
-// ---- answers ----------------------------------------------------------------------------------------
-
-/// The `most` highest of the nodes above the triangle of three others; empty only if there are none.
-template <class Int>
-std::vector<HullNode> Patch<Int>::nodes_above(const HullNode (&v)[3], std::size_t most) const {
-  std::vector<HullNode> above;
-  const auto add_those_above = [&](HullNode node, std::size_t faces) {
-    HullCorner corner = hull_.corner(node);
-    do {
-      const HullNode w = hull_.face(face_of(corner)).vertex[next_edge(edge_of(corner))];
-      if (w != v[0] && w != v[1] && w != v[2] && hull_.growing().above(v[0], v[1], v[2], w))
-        above.push_back(w);
-      corner = hull_.counterclockwise(corner);
-    } while (--faces > 0 && corner != hull_.corner(node));
-  };
-  // All nodes lie in the cone that the hull makes at a corner, so one of the neighbours of that corner lies
-  // above if any node does. The corner with the fewest: its ring closes first.
-  HullCorner at[3] = {hull_.corner(v[0]), hull_.corner(v[1]), hull_.corner(v[2])};
-  std::uint32_t least = 0;
-  do {
-    least = least == 2 ? 0 : least + 1;
-    at[least] = hull_.counterclockwise(at[least]);
-  } while (at[least] != hull_.corner(v[least]));
-  bool is_face = false;
-  hull_.for_each_face_at(v[least], [&](HullFace t, std::uint32_t i) {
-    const auto& corner = hull_.face(t).vertex;
-    is_face |=
-        corner[next_edge(i)] == v[next_edge(least)] && corner[previous_edge(i)] == v[previous_edge(least)];
-  });
-  if (is_face) return above;
-  constexpr std::size_t kManyFaces = 512;  // not all at a node with very many neighbours
-  add_those_above(v[least], SIZE_MAX);
-  if (above.empty()) return above;
-  for (std::uint32_t k = 0; k < 3; ++k)
-    if (k != least) add_those_above(v[k], kManyFaces);
-  std::sort(above.begin(), above.end());
-  above.erase(std::unique(above.begin(), above.end()), above.end());
-  if (above.size() > most) {
-    const Point a = hull_.place(v[0]);
-    const Point normal = cross(minus(hull_.place(v[1]), a), minus(hull_.place(v[2]), a));
-    const auto height = [&](HullNode w) { return dot(normal, minus(hull_.place(w), a)); };
-    std::nth_element(above.begin(), above.begin() + static_cast<std::ptrdiff_t>(most), above.end(),
-                     [&](HullNode s, HullNode t) { return height(s) > height(t); });
-    above.resize(most);
-  }
-  return above;
-}
-
-template <class Int>
-std::vector<SentNode> Patch<Int>::answer(const Question& question) {
-  assert(nodes_.own > 0);  // among them is a corner
-  if (!hull_.coincident().empty()) return {};
-  // The highest few: they change the asker's triangulation most, and the others may not matter then.
-  constexpr std::size_t kFew = 64;
-  HullNode v[3];
-  for (int i = 0; i < 3; ++i) v[i] = hull_.take_in(question.corner[i]);
-  std::vector<SentNode> nodes;
-  for (const HullNode w : nodes_above(v, kFew)) nodes.push_back(hull_.node(w));
-  return nodes;
-}
 
 }  // namespace pstripack

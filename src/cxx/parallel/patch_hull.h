@@ -32,12 +32,52 @@ class PatchHull {
   }
   /// Sorts the nodes; `leading` are others, which come first. The workspace must outlive the hull and its
   /// rings, `nodes` only this call. Throws HiddenNode if a quick test finds one, std::bad_alloc.
-  void set_up(const PatchNodes& nodes, const std::vector<SentNode>& leading, Workspace& workspace);
+  void set_up(const PatchNodes& nodes, const std::vector<SentNode>& leading, Workspace& workspace) {
+    own_ = nodes.own;
+    const std::size_t first = leading.size();
+    built_ = nodes.count() + first;
+    order_ = workspace.for_call<PatchNode>(built_);
+    leading_ = first + insertion_order(&nodes.first->point, nodes.count(), order_ + first, workspace,
+                                       sizeof(SentNode));
+    workspace.next_phase();
+    lay_out(workspace, capacity_for(built_));
+    const auto set = [&](std::size_t v, const SentNode& r) {
+      arrays_.nodes[v] = r.point;
+      number_[v] = static_cast<Int>(r.number);
+    };
+    for (std::size_t v = 0; v < first; ++v) {
+      order_[v] = static_cast<PatchNode>(nodes.count() + v);
+      set(v, leading[v]);
+    }
+    constexpr std::size_t kAhead = 16;
+    for (std::size_t v = first; v < built_; ++v) {
+      if (v + kAhead < built_) __builtin_prefetch(nodes.first + order_[v + kAhead]);
+      set(v, nodes.first[order_[v]]);
+    }
+    first_planes_ = arrays_.planes;
+    growing_ = GrowingHull::make(arrays_, built_, places_.lengths());
+    growing_->look_for_hidden_nodes(leading_);
+  }
   /// Makes their hull. Throws HiddenNode, std::bad_alloc.
-  void build();
+  void build() {
+    growing_->build(leading_);
+    for (const auto& [in, out] : growing_->coincident())
+      if (number(in) != number(out)) coincident_.emplace_back(number(in), number(out));
+  }
   /// Adds a node of another patch, unless it was added before. Returns its hull node, or the one with which
   /// it coincides. Throws HiddenNode, std::bad_alloc.
-  HullNode take_in(const SentNode& node);
+  HullNode take_in(const SentNode& node) {
+    if (const HullNode* const taken = taken_in_.find(node.number)) return *taken;
+    make_room();
+    const std::size_t before = growing_->node_count();
+    const HullNode v = growing_->add(node.point);
+    if (v == before)
+      number_[v] = static_cast<Int>(node.number);
+    else if (number(v) != node.number)
+      coincident_.emplace_back(number(v), node.number);
+    taken_in_.insert(node.number, v);
+    return v;
+  }
   /// True if the node of that number was taken in.
   bool has_taken_in(GlobalNumber number) const { return taken_in_.find(number) != nullptr; }
 
@@ -139,7 +179,21 @@ class PatchHull {
     arrays_.corner = workspace.for_call<HullCorner>(capacity);
     arrays_.planes = workspace.for_phase<Plane>(2 * capacity);
   }
-  void make_room();
+  void make_room() {
+    const std::size_t n = growing_->node_count(), faces = growing_->face_count();
+    if (n < arrays_.capacity) return;
+    auto memory = std::make_unique<Workspace>(bytes_of_arrays(2 * arrays_.capacity));
+    const HullArrays before = arrays_;
+    const Int* const number_before = number_;
+    lay_out(*memory, 2 * before.capacity);
+    std::copy_n(before.nodes, n, arrays_.nodes);
+    std::copy_n(number_before, n, number_);
+    std::copy_n(before.faces, faces, arrays_.faces);
+    std::copy_n(before.planes, faces, arrays_.planes);
+    std::copy_n(before.corner, n, arrays_.corner);
+    growing_->move_to(arrays_);
+    more_memory_ = std::move(memory);
+  }
 
   Places places_;
   std::size_t own_ = 0, leading_ = 0, built_ = 0;
@@ -153,72 +207,5 @@ class PatchHull {
   NumberTable<HullNode> taken_in_;
   std::unique_ptr<Workspace> more_memory_;  ///< where that of set_up() was too small for what was taken in
 };
-
-template <class Int>
-void PatchHull<Int>::set_up(const PatchNodes& nodes, const std::vector<SentNode>& leading,
-                            Workspace& workspace) {
-  own_ = nodes.own;
-  const std::size_t first = leading.size();
-  built_ = nodes.count() + first;
-  order_ = workspace.for_call<PatchNode>(built_);
-  leading_ = first +
-             insertion_order(&nodes.first->point, nodes.count(), order_ + first, workspace, sizeof(SentNode));
-  workspace.next_phase();
-  lay_out(workspace, capacity_for(built_));
-  const auto set = [&](std::size_t v, const SentNode& r) {
-    arrays_.nodes[v] = r.point;
-    number_[v] = static_cast<Int>(r.number);
-  };
-  for (std::size_t v = 0; v < first; ++v) {
-    order_[v] = static_cast<PatchNode>(nodes.count() + v);
-    set(v, leading[v]);
-  }
-  constexpr std::size_t kAhead = 16;
-  for (std::size_t v = first; v < built_; ++v) {
-    if (v + kAhead < built_) __builtin_prefetch(nodes.first + order_[v + kAhead]);
-    set(v, nodes.first[order_[v]]);
-  }
-  first_planes_ = arrays_.planes;
-  growing_ = GrowingHull::make(arrays_, built_, places_.lengths());
-  growing_->look_for_hidden_nodes(leading_);
-}
-
-template <class Int>
-void PatchHull<Int>::build() {
-  growing_->build(leading_);
-  for (const auto& [in, out] : growing_->coincident())
-    if (number(in) != number(out)) coincident_.emplace_back(number(in), number(out));
-}
-
-template <class Int>
-void PatchHull<Int>::make_room() {
-  const std::size_t n = growing_->node_count(), faces = growing_->face_count();
-  if (n < arrays_.capacity) return;
-  auto memory = std::make_unique<Workspace>(bytes_of_arrays(2 * arrays_.capacity));
-  const HullArrays before = arrays_;
-  const Int* const number_before = number_;
-  lay_out(*memory, 2 * before.capacity);
-  std::copy_n(before.nodes, n, arrays_.nodes);
-  std::copy_n(number_before, n, number_);
-  std::copy_n(before.faces, faces, arrays_.faces);
-  std::copy_n(before.planes, faces, arrays_.planes);
-  std::copy_n(before.corner, n, arrays_.corner);
-  growing_->move_to(arrays_);
-  more_memory_ = std::move(memory);
-}
-
-template <class Int>
-HullNode PatchHull<Int>::take_in(const SentNode& node) {
-  if (const HullNode* const taken = taken_in_.find(node.number)) return *taken;
-  make_room();
-  const std::size_t before = growing_->node_count();
-  const HullNode v = growing_->add(node.point);
-  if (v == before)
-    number_[v] = static_cast<Int>(node.number);
-  else if (number(v) != node.number)
-    coincident_.emplace_back(number(v), node.number);
-  taken_in_.insert(node.number, v);
-  return v;
-}
 
 }  // namespace pstripack

@@ -36,11 +36,6 @@ class ExactSum {
     not_finite_ += other.not_finite_;
     return *this;
   }
-  ExactSum& operator-=(const ExactSum& other) noexcept {
-    for (std::size_t i = 0; i < kParts; ++i) part_[i] -= other.part_[i];
-    not_finite_ += other.not_finite_;
-    return *this;
-  }
 
   /// The nearest double; NaN if a term was not finite.
   double value() const noexcept {

@@ -28,52 +28,49 @@ constexpr double kSmallest = 4e-6, kLargest = 1;  ///< bounds of the size h
 
 /// Random places, evenly distributed, and the area that each represents.
 struct Samples {
-  explicit Samples(std::size_t about);
+  explicit Samples(std::size_t about) {
+    // One place in each square of a lattice on the faces of a cube.
+    const int m = std::max(16, static_cast<int>(std::sqrt(static_cast<double>(about) / 6)));
+    std::uint64_t state = 1;
+    const auto random = [&] {  // Knuth's MMIX
+      state = state * 6364136223846793005 + 1442695040888963407;
+      return static_cast<double>(state >> 11) * 0x1p-53;
+    };
+    for (int face = 0; face < 6; ++face)
+      for (int i = 0; i < m; ++i)
+        for (int j = 0; j < m; ++j) {
+          const double side = face % 2 == 0 ? 1 : -1;
+          const double u = 2 * (i + random()) / m - 1, v = 2 * (j + random()) / m - 1;
+          const double square = 1 + u * u + v * v;
+          place.push_back(normalized(face < 2   ? Point{side, u, v}
+                                     : face < 4 ? Point{u, side, v}
+                                                : Point{u, v, side}));
+          area.push_back(4 / (static_cast<double>(m) * m * square * std::sqrt(square)));
+        }
+  }
   std::vector<Point> place;
   std::vector<double> area;
 };
 
-Samples::Samples(std::size_t about) {
-  // One place in each square of a lattice on the faces of a cube.
-  const int m = std::max(16, static_cast<int>(std::sqrt(static_cast<double>(about) / 6)));
-  std::uint64_t state = 1;
-  const auto random = [&] {  // Knuth's MMIX
-    state = state * 6364136223846793005 + 1442695040888963407;
-    return static_cast<double>(state >> 11) * 0x1p-53;
-  };
-  for (int face = 0; face < 6; ++face)
-    for (int i = 0; i < m; ++i)
-      for (int j = 0; j < m; ++j) {
-        const double side = face % 2 == 0 ? 1 : -1;
-        const double u = 2 * (i + random()) / m - 1, v = 2 * (j + random()) / m - 1;
-        const double square = 1 + u * u + v * v;
-        place.push_back(normalized(face < 2   ? Point{side, u, v}
-                                   : face < 4 ? Point{u, side, v}
-                                              : Point{u, v, side}));
-        area.push_back(4 / (static_cast<double>(m) * m * square * std::sqrt(square)));
-      }
-}
-
 /// The 20 face centres of an icosahedron, one corner of each face, and the 12 corners.
 struct Icosahedron {
-  Icosahedron();
+  Icosahedron() {
+    const double golden = (1 + std::sqrt(5.0)) / 2;
+    for (const double a : {1.0, -1.0})
+      for (const double b : {golden, -golden})
+        for (const Point& p : {Point{0, a, b}, Point{a, b, 0}, Point{b, 0, a}})
+          corner.push_back(normalized(p));
+    const auto neighbours = [&](std::size_t i, std::size_t j) { return dot(corner[i], corner[j]) > 0.4; };
+    for (std::size_t i = 0; i < 12; ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        for (std::size_t k = 0; k < j; ++k)
+          if (neighbours(i, j) && neighbours(j, k) && neighbours(k, i)) {
+            centre.push_back(normalized(plus(plus(corner[i], corner[j]), corner[k])));
+            corner_of.push_back(corner[i]);
+          }
+  }
   std::vector<Point> centre, corner_of, corner;
 };
-
-Icosahedron::Icosahedron() {
-  const double golden = (1 + std::sqrt(5.0)) / 2;
-  for (const double a : {1.0, -1.0})
-    for (const double b : {golden, -golden})
-      for (const Point& p : {Point{0, a, b}, Point{a, b, 0}, Point{b, 0, a}}) corner.push_back(normalized(p));
-  const auto neighbours = [&](std::size_t i, std::size_t j) { return dot(corner[i], corner[j]) > 0.4; };
-  for (std::size_t i = 0; i < 12; ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      for (std::size_t k = 0; k < j; ++k)
-        if (neighbours(i, j) && neighbours(j, k) && neighbours(k, i)) {
-          centre.push_back(normalized(plus(plus(corner[i], corner[j]), corner[k])));
-          corner_of.push_back(corner[i]);
-        }
-}
 
 std::pair<std::size_t, double> nearest(const std::vector<Point>& places, const Point& p) {
   std::pair<std::size_t, double> best{0, -2};
@@ -196,7 +193,23 @@ class Front {
     if (!grid_.has_near(second, kTooNear)) add(second);
   }
 
-  void grow();
+  void grow() {
+    // Queue by queue, so that nodes near on the sphere are near in memory.
+    for (;;) {
+      const auto queue =
+          std::find_if(queues_.begin(), queues_.end(), [](const auto& q) { return !q.empty(); });
+      if (queue == queues_.end()) return;
+      while (!queue->empty()) {
+        if (grid_.nodes.size() >= limit_) return;
+        Node node = queue->top().node;
+        queue->pop();
+        if (grid_.has_near(node, kTooNear)) continue;
+        look_around(node, kLinked + kTooNear);
+        node.p = fitted(node);
+        if (!grid_.has_near(node, kTooNear)) add(node);
+      }
+    }
+  }
 
  private:
   struct Candidate {
@@ -231,8 +244,48 @@ class Front {
       return true;
     });
   }
-  Point fitted(Node node) const;
-  void add(const Node& node);
+  /// Two steps towards the place where the distances to the linked nodes differ least from the wanted
+  /// distances.
+  Point fitted(Node node) const {
+    for (int step = 0; step < 2; ++step) {
+      Point sum{0, 0, 0};
+      int count = 0;
+      for (const Node& other : near_) {
+        if (!are_linked(node, other)) continue;
+        const Point d = minus(other.p, node.p);
+        const double distance = std::sqrt(dot(d, d)), wanted = (node.size + other.size) / 2;
+        sum = plus(sum, scaled(1 - wanted / distance, d));
+        ++count;
+      }
+      if (count < 3) break;  // the apex of an equilateral triangle fits
+      node.p = normalized(plus(node.p, scaled(2.0 / count, sum)));
+    }
+    return node.p;
+  }
+  void add(const Node& node) {
+    look_around(node, kLinked + kTooNear);
+    grid_.add(node);
+    apexes_.clear();
+    for (const Node& other : near_) {
+      if (!are_linked(node, other)) continue;
+      const Point middle = normalized(plus(node.p, other.p)), across = normalized(cross(node.p, other.p));
+      const Point d = minus(node.p, other.p);
+      const double size = (node.size + other.size) / 2, square = size * size;
+      const double height = std::sqrt(std::max(square - dot(d, d) / 4, square / 4));
+      apexes_.push_back(normalized(plus(middle, scaled(height, across))));
+      apexes_.push_back(normalized(minus(middle, scaled(height, across))));
+    }
+    values_.resize(apexes_.size());
+    density_.at(apexes_.size(), apexes_.data(), values_.data());
+    for (std::size_t i = 0; i < apexes_.size(); ++i) {
+      if (!(values_[i] > 0 && std::isfinite(values_[i]))) throw BadDensity(apexes_[i], values_[i]);
+      const Node apex{apexes_[i], size_of(values_[i])};
+      if (!is_free(apex)) continue;
+      const auto [face, cosine] = nearest(icosahedron_.centre, apex.p);
+      const std::size_t queue = cosine > kInCircle ? face : 20 + nearest(icosahedron_.corner, apex.p).first;
+      queues_[queue].push({apex, cosine, candidates_++});
+    }
+  }
 
   const Density& density_;
   const double scale_;
@@ -246,92 +299,29 @@ class Front {
   std::vector<double> values_;
 };
 
-/// Two steps towards the place where the distances to the linked nodes differ least from the wanted
-/// distances.
-Point Front::fitted(Node node) const {
-  for (int step = 0; step < 2; ++step) {
-    Point sum{0, 0, 0};
-    int count = 0;
-    for (const Node& other : near_) {
-      if (!are_linked(node, other)) continue;
-      const Point d = minus(other.p, node.p);
-      const double distance = std::sqrt(dot(d, d)), wanted = (node.size + other.size) / 2;
-      sum = plus(sum, scaled(1 - wanted / distance, d));
-      ++count;
-    }
-    if (count < 3) break;  // the apex of an equilateral triangle fits
-    node.p = normalized(plus(node.p, scaled(2.0 / count, sum)));
-  }
-  return node.p;
-}
-
-void Front::add(const Node& node) {
-  look_around(node, kLinked + kTooNear);
-  grid_.add(node);
-  apexes_.clear();
-  for (const Node& other : near_) {
-    if (!are_linked(node, other)) continue;
-    const Point middle = normalized(plus(node.p, other.p)), across = normalized(cross(node.p, other.p));
-    const Point d = minus(node.p, other.p);
-    const double size = (node.size + other.size) / 2, square = size * size;
-    const double height = std::sqrt(std::max(square - dot(d, d) / 4, square / 4));
-    apexes_.push_back(normalized(plus(middle, scaled(height, across))));
-    apexes_.push_back(normalized(minus(middle, scaled(height, across))));
-  }
-  values_.resize(apexes_.size());
-  density_.at(apexes_.size(), apexes_.data(), values_.data());
-  for (std::size_t i = 0; i < apexes_.size(); ++i) {
-    if (!(values_[i] > 0 && std::isfinite(values_[i]))) throw BadDensity(apexes_[i], values_[i]);
-    const Node apex{apexes_[i], size_of(values_[i])};
-    if (!is_free(apex)) continue;
-    const auto [face, cosine] = nearest(icosahedron_.centre, apex.p);
-    const std::size_t queue = cosine > kInCircle ? face : 20 + nearest(icosahedron_.corner, apex.p).first;
-    queues_[queue].push({apex, cosine, candidates_++});
-  }
-}
-
-void Front::grow() {
-  // Queue by queue, so that nodes near on the sphere are near in memory.
-  for (;;) {
-    const auto queue = std::find_if(queues_.begin(), queues_.end(), [](const auto& q) { return !q.empty(); });
-    if (queue == queues_.end()) return;
-    while (!queue->empty()) {
-      if (grid_.nodes.size() >= limit_) return;
-      Node node = queue->top().node;
-      queue->pop();
-      if (grid_.has_near(node, kTooNear)) continue;
-      look_around(node, kLinked + kTooNear);
-      node.p = fitted(node);
-      if (!grid_.has_near(node, kTooNear)) add(node);
-    }
-  }
-}
-
 /// Places where a front may begin: the face centres, then sampled places, those of highest density first.
 struct FrontSeeds {
-  FrontSeeds(std::size_t n, const Icosahedron& icosahedron, const Density& density);
+  FrontSeeds(std::size_t n, const Icosahedron& icosahedron, const Density& rho) {
+    const Samples samples(n / 2 + 10000);
+    const std::vector<double> values = values_at(samples.place, rho);
+    std::vector<std::size_t> order(values.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      order[i] = i;
+      integral += samples.area[i] * std::sqrt(values[i]);
+    }
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return values[a] > values[b]; });
+    place = icosahedron.centre;
+    density = values_at(place, rho);
+    for (const std::size_t i : order) {
+      place.push_back(samples.place[i]);
+      density.push_back(values[i]);
+    }
+  }
   std::vector<Point> place;
   std::vector<double> density;
   double integral = 0;  ///< of the square root of the density
 };
-
-FrontSeeds::FrontSeeds(std::size_t n, const Icosahedron& icosahedron, const Density& rho) {
-  const Samples samples(n / 2 + 10000);
-  const std::vector<double> values = values_at(samples.place, rho);
-  std::vector<std::size_t> order(values.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    order[i] = i;
-    integral += samples.area[i] * std::sqrt(values[i]);
-  }
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return values[a] > values[b]; });
-  place = icosahedron.centre;
-  density = values_at(place, rho);
-  for (const std::size_t i : order) {
-    place.push_back(samples.place[i]);
-    density.push_back(values[i]);
-  }
-}
 
 /// The nodes of fronts that cover the sphere, or the first `limit` of them.
 std::vector<Point> advance(std::size_t limit, const Icosahedron& icosahedron, const FrontSeeds& seeds,
