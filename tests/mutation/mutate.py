@@ -41,7 +41,7 @@ SUBJECTS = {
     "src/cxx/trmesh/warm_start.cpp": ("constexpr std::size_t kLast", "}  // namespace pstripack", [WARM, MEMORY]),
     "src/cxx/parallel/moving_stars.cpp": ("bool MovingStars::propose(", "MeshNode MovingStars::find(", [STARS]),
     "src/cxx/mesh/validate.cpp": ("Verdict defect(", "const char* name(", [VALIDATOR, LISTS]),
-    "src/cxx/lists/adjacency_lists.cpp": ("Verdict malformed(", "#define PSTRIPACK", [VALIDATOR, LISTS]),
+    "src/cxx/lists/adjacency_lists.cpp": ("Verdict malformed(", "}  // namespace pstripack", [VALIDATOR, LISTS]),
 }
 
 REPLACEMENTS = [
