@@ -31,10 +31,12 @@ symbol_of() { echo "$1_" | tr '[:upper:]' '[:lower:]'; }
 texts_of() { grep -aoE '@\(#\)PSTRIPACK [a-z0-9_]+ [A-Z]+' "$1" || true; }
 interpreter_of() { readelf -lW "$1" | sed -n 's/.*program interpreter: \(.*\)]/\1/p'; }
 
-# has FILE TYPES [nm's option]: lines for $work/found, one per symbol whose type in nm is one of TYPES
+# has TYPES [nm's option]: of the files that stdin names, lines for $work/found, one per symbol whose type in nm is one of
+# TYPES. One nm for all files, because its start takes longest; with /dev/null it names each file.
 has() {
-  nm ${3:+"$3"} -P "$1" 2> /dev/null |
-    awk -v symbols="$symbols" -v types="^[$2]\$" -v file="$1" '$1 ~ symbols && $2 ~ types { print $1, file }'
+  xargs -r -d '\n' nm ${2:+"$2"} -P /dev/null 2> /dev/null | awk -v symbols="$symbols" -v types="^[$1]\$" '
+    /:$/ { file = substr($0, 1, length($0) - 1) }
+    $1 ~ symbols && $2 ~ types { print $1, file }'
 }
 
 # Routines of the planar TRIPACK that STRIPACK does not have.
@@ -59,9 +61,8 @@ examine() {
   if grep -q 'Error:' "$work/errors"; then fail "$1 is damaged: $(head -n 1 "$work/errors")"; fi
   : > "$work/loader"
   if grep -q '(NEEDED)' "$work/header"; then ask_loader "$1"; fi
-  sed -n 's/^\t\(.* => \)\{0,1\}\(.*\) (0x[0-9a-f]*)$/\2/p' "$work/loader" | while read -r library; do
-    [ ! -e "$library" ] || readlink -f "$library"
-  done > "$work/loaded"
+  sed -n 's/^\t\(.* => \)\{0,1\}\(.*\) (0x[0-9a-f]*)$/\2/p' "$work/loader" |
+    { xargs -r -d '\n' readlink -e || true; } > "$work/loaded"
   { echo "$1"; cat "$work/loaded"; } >> "$work/examined"
   sed -n 's/^\t\(.*\) => not found$/\1/p' "$work/loader" | sort -u | while read -r library; do
     echo "pstripack-config --check: $1 needs $library, which is not found" >&2
@@ -85,20 +86,20 @@ examine() {
   fi
 
   # Calls within a file: a library may call its hidden symbols, a program all of its symbols.
-  while read -r library; do has "$library" t; done < "$work/loaded" >> "$work/found"
+  has t < "$work/loaded" >> "$work/found"
   if ! grep -qE 'program interpreter|Type: *EXEC|Flags:.*PIE' "$work/header"; then
-    { has "$1" t; has "$1" TWi -D; } >> "$work/found"
+    { echo "$1" | has t; echo "$1" | has TWi -D; } >> "$work/found"
     return
   fi
   {
-    has "$1" TtWwi
-    has "$1" TWi -D
+    echo "$1" | has TtWwi
+    echo "$1" | has TWi -D
     texts_of "$1" | while read -r _ _ routine; do echo "$(symbol_of "$routine") $1"; done
   } >> "$work/found"
 
   # A stripped program shows only symbols that a library it was linked with defines as well.
   if grep -q ' SYMTAB ' "$work/header"; then return; fi
-  while read -r library; do has "$library" TWi -D; done < "$work/loaded" > "$work/shown"
+  has TWi -D < "$work/loaded" > "$work/shown"
   for routine in $routines; do
     symbol=$(symbol_of "$routine")
     grep -q "^$symbol " "$work/found" "$work/shown" || echo "$symbol ?" >> "$work/found"
@@ -122,7 +123,7 @@ if [ ! -e "$subject" ] && [ -d "/proc/$subject" ] && [ "${subject#*[!0-9]}" = "$
   for types in U TWi; do
     while read -r file; do
       if [ ! -f "$file" ] || grep -qxF "$file" "$work/examined" || ! is_elf "$file"; then continue; fi
-      if [ -n "$(has "$file" $types -D)$(has "$file" t)" ]; then examine "$file"; fi
+      if [ -n "$(echo "$file" | has $types -D)$(echo "$file" | has t)" ]; then examine "$file"; fi
     done < "$work/mapped"
   done
   while read -r _ file; do
