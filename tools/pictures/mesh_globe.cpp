@@ -41,7 +41,7 @@ Globe mesh_globe(const files::Mesh& mesh, const MeshOptions& options) {
       globe.value_name = column->long_name.empty() ? column->name : column->long_name;
       globe.value_unit = column->units;
       globe.numbers = column->numbers;
-      globe.words = column->texts;
+      if (column->is_text()) globe.words = column->texts;
     }
   if (options.colour == MeshOptions::Colour::owner && globe.cells) {
     globe.value_name = "rank";

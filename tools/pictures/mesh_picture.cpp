@@ -18,6 +18,7 @@
 #include "pictures/legend.h"
 #include "pictures/scale.h"
 #include "pictures/sheet.h"
+#include "point_sets.h"
 #include "stripack/list_queries.h"
 
 namespace pictures {
@@ -135,8 +136,7 @@ class MeshPicture {
   /// The radius that shows all nodes; 90 if it would exceed 70 degrees.
   double radius_of_nodes(const Spot& centre) const {
     if (boundary_.empty()) return 90;
-    const double lon = centre.lon / files::kRadian, lat = centre.lat / files::kRadian;
-    const Point eye{std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
+    const Point eye = point_sets::from_degrees(centre.lon, centre.lat);
     double farthest = 0;
     for (const Point& p : nodes_) farthest = std::max(farthest, files::angle_between(eye, p));
     const double radius = 1.06 * farthest * files::kRadian;
@@ -183,10 +183,7 @@ class MeshPicture {
   /// The background with the graticule.
   void draw_ground() {
     Path& path = graticule_path_;
-    const auto at = [](double lon, double lat) {
-      lon /= files::kRadian, lat /= files::kRadian;
-      return Point{std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
-    };
+    const auto at = point_sets::from_degrees;
     const Frame& frame = view_->frame();
     if (lonlat_ != nullptr) {
       sheet_.rectangle(frame.left, frame.top, frame.width(), frame.height(), "#fbfcfd");
