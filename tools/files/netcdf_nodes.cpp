@@ -190,7 +190,8 @@ std::string why_not_rotated(const std::string& names) {
 /// are, and of these a usual pair, or the only one.
 Pair lon_lat_of(const File& file, const std::string& value) {
   const Candidates candidates(file);
-  const auto& [lons, lats, rotated, said] = candidates;
+  const std::vector<const Variable*>&lons = candidates.lons, &lats = candidates.lats,
+                          &rotated = candidates.rotated;
   if (lons.empty() && lats.empty()) {
     if (!rotated.empty()) file.fail(why_not_rotated(paths_of(rotated)));
     if (file.find("nodeCoords") != nullptr && file.find("elementConn") != nullptr)
@@ -227,7 +228,9 @@ Pair lon_lat_of(const File& file, const std::string& value) {
   prefer([&](const Pair& p) {
     return of_value != nullptr && of_value->is_of(dimensions_of_nodes(*p.first, *p.second));
   });
-  prefer([&](const Pair& p) { return is_among(said, p.first) || is_among(said, p.second); });
+  prefer([&](const Pair& p) {
+    return is_among(candidates.said, p.first) || is_among(candidates.said, p.second);
+  });
   if (pairs.empty() || (pairs.size() > 1 && rank_of(pairs[0]) == rank_of(pairs[1])))
     file.fail(fmt::format("longitudes {} and latitudes {}: name two of them by --columns LON,LAT",
                           paths_of(lons), paths_of(lats)));

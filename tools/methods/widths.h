@@ -41,8 +41,7 @@ class WidthFormula {
   /// `distance` in km from the centre or the parallel.
   double width(double distance) const;
   Widths widths(double radius) const;
-  /// The centre; of a band none.
-  bool is_band() const { return is_band_; }
+  /// The centre; of a band there is none.
   double lon() const { return lon_; }
   double lat() const { return lat_; }
   double least() const { return std::min(inner_, outer_); }

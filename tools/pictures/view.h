@@ -64,7 +64,6 @@ class Orthographic : public View {
  public:
   Orthographic(const Spot& centre, double radius, const Frame& frame);
 
-  bool shows_limb() const { return shows_limb_; }
   Place middle() const { return middle_; }
   double scale() const override { return scale_; }
 
