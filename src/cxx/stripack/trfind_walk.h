@@ -7,17 +7,9 @@
 #include <limits>
 
 #include "stripack/expressions.h"
+#include "stripack/search.h"
 
 namespace pstripack {
-
-/// Location of a point. i3 > 0: i1, i2, i3 is the counterclockwise triangle that contains the point. i3 =
-/// 0: the point is outside; i1 and i2 are the rightmost and the leftmost boundary node visible from it, and
-/// i1 = i2 if all are visible. All 0: not found, because all nodes lie on one great circle, or the point is
-/// zero or not finite.
-template <class Int>
-struct Location {
-  Int i1, i2, i3;
-};
 
 /// Limits of a search. The original has none: its search ends soon, or after some restarts, or never.
 struct SearchLimits {
