@@ -432,6 +432,7 @@ NextNearestStatus nearest_by_cosines(const ListsView<Int>& lists, const Nodes<Re
   for (Int i = 0; i < given; ++i)
     if (npts[i] < 1 || !taken.insert(npts[i])) return NextNearestStatus::bad_nodes;
   const ListReader<Int> reader(lists);
+  for (Int i = 0; i < given; ++i) reader.prefetch_list(npts[i]);  // half of the time for N = 1e6
   const Vector<Real> centre = nodes[npts[0]];
   Int nearest = 0;
   Real greatest = -2, not_finite = 0;  // NaN if a distance was not finite
