@@ -356,11 +356,13 @@ std::vector<std::string> NetcdfFile::texts(const NetcdfVariable& v) const {
   for (const std::size_t length : v.lengths) size *= expect_few(v, length, size);
   std::vector<std::string> texts;
   if (v.type == NC_CHAR) {  // of equal length, padded with zeros or blanks
-    const std::size_t length = std::max<std::size_t>(v.lengths.back(), 1);
+    const std::size_t length = v.lengths.back();
+    std::size_t count = 1;
+    for (std::size_t d = 0; d + 1 < v.lengths.size(); ++d) count *= expect_few(v, v.lengths[d], count);
     std::string bytes(size, '\0');
     check(v.path, nc_get_var_text(v.group, v.id, bytes.data()));
-    for (std::size_t i = 0; i < size; i += length) {
-      std::string text = bytes.substr(i, length);
+    for (std::size_t i = 0; i < count; ++i) {
+      std::string text = bytes.substr(i * length, length);
       text.resize(std::min(text.size(), text.find('\0')));
       text.resize(text.find_last_not_of(' ') + 1);
       texts.push_back(std::move(text));

@@ -372,9 +372,7 @@ void read_off(Nodes& nodes, std::string text, const ReadOptions& options) {
 
 namespace {
 
-constexpr std::string_view kGridOfAdcirc = "fort.14";
-
-/// True for a title, a line with the numbers of elements and nodes, and rows "1 x y z".
+/// True for a title, a line with nothing but the numbers of elements and nodes, and rows "1 x y z".
 bool is_grid_of_adcirc(std::string_view text) {
   std::istringstream lines{std::string(text)};
   std::string title, line;
@@ -383,7 +381,8 @@ bool is_grid_of_adcirc(std::string_view text) {
   double number = 0, x = 0, y = 0, z = 0;
   if (point_sets::parse(std::string(first_word(title)), number)) return false;
   std::getline(lines, line);
-  if (!(std::istringstream(line) >> elements >> nodes) || elements < 1 || nodes < 3) return false;
+  std::istringstream counts(line);
+  if (!(counts >> elements >> nodes) || elements < 1 || nodes < 3 || counts >> number) return false;
   std::getline(lines, line);
   return static_cast<bool>(std::istringstream(line) >> first >> x >> y >> z) && first == 1;
 }
@@ -416,21 +415,22 @@ void refuse_foreign(const std::string& file, const std::string& contents) {
       {"# vtk DataFile", "", "a VTK mesh", kToOff},
       {"$MeshFormat", "", "a mesh of gmsh", kToOff},
       {"", "MSHID=", "a mesh of JIGSAW",
-       "awk -F'[=;]' '/^POINT/{{n=$2;next}} n-->0{{print $1,$2,$3}}' {in} > {out}.txt"},
-      {"", kGridOfAdcirc, "a grid of ADCIRC or SCHISM",
-       "awk 'NR==2{{n=$2}} NR>2&&NR<=n+2{{print $2,$3,$4}}' {in} > {out}.txt"}};
-  const std::string_view whole(contents), head = whole.substr(0, 4096);
-  for (const Foreign& f : kForeign) {
-    if (f.inside == kGridOfAdcirc ? !is_grid_of_adcirc(head)
-                                  : whole.substr(0, f.begin.size()) != f.begin ||
-                                        (f.begin.empty() ? head : whole).find(f.inside) == whole.npos)
-      continue;
+       "awk -F'[=;]' '/^POINT/{{n=$2;next}} n-->0{{print $1,$2,$3}}' {in} > {out}.txt"}};
+  const auto refuse = [&](const char* name, const char* command) {
     const std::size_t dot = file.find_last_of("./");
     const std::string stem = dot != file.npos && file[dot] == '.' ? file.substr(0, dot) : file;
     throw std::runtime_error(
-        fmt::format("{}: {}: convert it first, by `{}`", file, f.name,
-                    fmt::format(fmt::runtime(f.command), fmt::arg("in", file), fmt::arg("out", stem))));
-  }
+        fmt::format("{}: {}: convert it first, by `{}`", file, name,
+                    fmt::format(fmt::runtime(command), fmt::arg("in", file), fmt::arg("out", stem))));
+  };
+  const std::string_view whole(contents), head = whole.substr(0, 4096);
+  for (const Foreign& f : kForeign)
+    if (whole.substr(0, f.begin.size()) == f.begin &&
+        (f.begin.empty() ? head : whole).find(f.inside) != whole.npos)
+      refuse(f.name, f.command);
+  if (is_grid_of_adcirc(head))
+    refuse("a grid of ADCIRC or SCHISM",
+           "awk 'NR==2{{n=$2}} NR>2&&NR<=n+2{{print $2,$3,$4}}' {in} > {out}.txt");
 }
 
 LonLat Grid::places() const {

@@ -386,7 +386,8 @@ class Reader {
       ++piece.segments;
       return false;
     }
-    if (layout_.header_line == 0 && layout_.separator != ' ' && error_at(line.substr(begin)).empty())
+    if (layout_.header_line == 0 && layout_.has_quotes && layout_.separator != ' ' &&
+        error_at(line.substr(begin)).empty())
       line = without_comment(line);
     return true;
   }
@@ -523,7 +524,7 @@ TextLayout layout_of(std::string_view text, const std::string& file, const TextF
       comment = content.substr(1);
       continue;
     }
-    const bool is_whole = layout.header_line > 0 || !error_at(content).empty();
+    const bool is_whole = layout.header_line > 0 || !layout.has_quotes || !error_at(content).empty();
     const std::string_view plain = is_whole ? content : trimmed(without_comment(content));
     if (layout.header_line == 0) layout.separator = separator_in(plain);
     const std::vector<std::string> cells = split(plain, layout.separator, layout.has_quotes);

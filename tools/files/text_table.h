@@ -28,7 +28,7 @@ struct TextLayout {
 };
 
 /// What the caller says of the format: the separator, or 0, and that a double quote is a character like
-/// others.
+/// others, as # and ! behind the first of a line then are.
 struct TextFormat {
   char separator = '\0';
   bool has_quotes = true;

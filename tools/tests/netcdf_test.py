@@ -176,6 +176,7 @@ def test_faces_of_more_than_three_corners_are_told(tmp_path):
     # Texts, and integers of more digits than a double has.
     (PLACES + "string id(n); char c(n,one); int64 big(n);", PLACES_DATA + 'id="007","b c",""; c="x","y","z"; '
      "big=17179869184000001,2,-3;", [], "0,0,007,x,17179869184000001"),
+    (PLACES + "char c(n, none);", PLACES_DATA, [], "10,20,\n"),  # of length 0
     # Several groups have the name.
     (PLACES + "group: g { variables: float v(n); data: v=1,2,3; } group: h { variables: float v(n); data: v=4,5,6; }",
      PLACES_DATA, ["--columns", "lon,lat,h/v"], "20,10,6"),
@@ -183,5 +184,5 @@ def test_faces_of_more_than_three_corners_are_told(tmp_path):
 def test_variables_are_what_their_attributes_say(tmp_path, variables, data, options, words):
     groups = variables.find("group:")
     head, inner = (variables, "") if groups < 0 else (variables[:groups], variables[groups:])
-    file = made(tmp_path, f"dimensions: n=3; time=2; one=1; one2=1; variables: {head} data: {data} {inner}")
+    file = made(tmp_path, f"dimensions: n=3; time=2; one=1; one2=1; none=UNLIMITED; variables: {head} data: {data} {inner}")
     assert words in convert(file, *options)

@@ -256,15 +256,17 @@ TEST(tables, keep_their_texts) {
 }
 
 TEST(tables, may_have_fixed_widths_and_said_separators) {
-  const Nodes fixed = read_bytes("ACW 17.11  -61.78 ST JOHNS\nAE  25.33   55.51 SHARJAH\n\n",
-                                 with_columns("11-17,4-9,1-3,19-30"));
+  const Nodes fixed =
+      read_bytes("ACW 17.11  -61.78 FORT #2\nAE  25.33   55.51 HO!\n\n", with_columns("11-17,4-9,1-3,19-30"));
   EXPECT_EQ(fixed.given.lon, (std::vector<double>{-61.78, 55.51}));
-  EXPECT_EQ(fixed.columns.at(1).texts, (std::vector<std::string>{"ST JOHNS", "SHARJAH"}));
+  EXPECT_EQ(fixed.columns.at(1).texts, (std::vector<std::string>{"FORT #2", "HO!"}));
   ReadOptions options = with_columns("4,3,1");
   options.text = {'\t', false};
-  const Nodes geonames = read_bytes("x \"y\t\t42.5\t1.5\n\"z\t\t43\t2\n", options);
+  const Nodes geonames = read_bytes("x \"y! #\t\t42.5\t1.5\n\"z\t\t43\t2\n", options);
   EXPECT_EQ(geonames.given.lon, (std::vector<double>{1.5, 2}));
-  EXPECT_EQ(geonames.columns.at(0).texts, (std::vector<std::string>{"x \"y", "\"z"}));
+  EXPECT_EQ(geonames.columns.at(0).texts, (std::vector<std::string>{"x \"y! #", "\"z"}));
+  // A table, no grid of ADCIRC, whose second line has two numbers.
+  EXPECT_EQ(read_bytes("lon lat a b\n5 4 3 2\n1 2 3 4\n9 9 9 9\n", with_columns("")).given.lon.at(1), 1);
   EXPECT_EQ(read_bytes("lat,lon,lon,lat,v\n1,2,3,4,5\n", with_columns("2,1,4,3,5")).given.lon.at(0), 2);
 }
 
