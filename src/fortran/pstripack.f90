@@ -7,7 +7,7 @@ module pstripack
   implicit none
   private
   public :: pstripack_version, pstripack_strerror, pstripack_trmesh, pstripack_delaunay, pstripack_validate
-  public :: pstripack_fingerprint
+  public :: pstripack_fingerprint, pstripack_release_memory
   public :: pstripack_ok, pstripack_too_few_nodes, pstripack_collinear, pstripack_too_many_nodes, &
             pstripack_bad_coordinate, pstripack_out_of_memory, pstripack_bad_size
   ! Centroidal tessellations.
@@ -206,6 +206,11 @@ module pstripack
       character(kind=c_char), intent(inout) :: message(*)
       integer(c_int32_t) :: ier
     end function
+
+    !> Frees the memory that the library keeps in this process for the next call; PSTRIPACK_KEEP bounds it. Meshes and
+    !> communicators that the program holds stay.
+    subroutine pstripack_release_memory() bind(c)
+    end subroutine
 
     ! const char* pstripack_version(void);
     pure function c_version() result(text) bind(c, name="pstripack_version")

@@ -30,6 +30,7 @@ program pstripack_module
 
   call pstripack_trmesh(x, y, z, list, lptr, lend, lnew, ier)
   call expect(ier == pstripack_ok .and. lnew == slots + 1, "trmesh, real64")
+  call pstripack_release_memory()
   call expect(pstripack_validate(x, y, z, list, lptr, lend, lnew, message) == 0 .and. message == "", "validate")
   call expect(pstripack_validate(x, y, z, list, lptr, lend, 0_c_int32_t) == 0, "validate without LNEW and message")
   print_of_all = pstripack_fingerprint(list, lptr, lend)

@@ -2,6 +2,7 @@
 
 #include <sys/mman.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -11,8 +12,21 @@
 
 namespace pstripack {
 
-/// An uninitialised array on the heap. Large arrays ask for huge pages, because the kernel visits its arrays
-/// at random. The constructor throws std::bad_alloc.
+constexpr std::size_t kHugePage = std::size_t{1} << 21;
+
+/// Asks the system to back the whole huge pages of this memory as such: one page fault for 512.
+inline void ask_for_huge_pages(void* begin, std::size_t bytes) {
+#ifdef MADV_HUGEPAGE
+  const auto first = reinterpret_cast<std::uintptr_t>(begin),
+             skipped = (kHugePage - first % kHugePage) % kHugePage;
+  if (bytes < skipped + kHugePage) return;
+  madvise(static_cast<unsigned char*>(begin) + skipped, (bytes - skipped) / kHugePage * kHugePage,
+          MADV_HUGEPAGE);  // a hint: failure is harmless
+#endif
+}
+
+/// An uninitialised array on the heap. Arrays from 1 MiB on ask for huge pages, because the kernel visits its
+/// arrays at random. The constructor throws std::bad_alloc.
 template <class T>
 class Buffer {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -23,13 +37,11 @@ class Buffer {
     // no number of nodes that is let in asks for so much
     if (n > static_cast<std::size_t>(PTRDIFF_MAX) / sizeof(T)) throw std::bad_alloc();
     const std::size_t bytes = n * sizeof(T);
-    if (bytes < 2 * kHugePage) {
+    if (bytes < kHugePage / 2) {
       data_ = static_cast<T*>(std::malloc(bytes + 1));
     } else {
       data_ = static_cast<T*>(std::aligned_alloc(kHugePage, (bytes / kHugePage + 1) * kHugePage));
-#ifdef MADV_HUGEPAGE
-      if (data_ != nullptr) madvise(data_, bytes, MADV_HUGEPAGE);  // a hint: failure is harmless
-#endif
+      if (data_ != nullptr) ask_for_huge_pages(data_, std::max(bytes, kHugePage));
     }
     if (data_ == nullptr) throw std::bad_alloc();
   }
@@ -55,7 +67,6 @@ class Buffer {
   const T* end() const { return data_ + size_; }
 
  private:
-  static constexpr std::size_t kHugePage = std::size_t{1} << 21;
   T* data_ = nullptr;
   std::size_t size_ = 0;
 };

@@ -1,6 +1,7 @@
 #pragma once
 // The library reads environment variables only through this header.
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,6 +17,16 @@ inline const char* environment_variable(const char* name) {
 #else
   return getuid() == geteuid() && getgid() == getegid() ? getenv(name) : nullptr;
 #endif
+}
+
+/// What read() returns, once. Threads that wait here for each other may find another errno: the program's
+/// must stay.
+template <class Read>
+auto read_once(const Read& read) {
+  const int error = errno;
+  static const auto value = read();
+  errno = error;
+  return value;
 }
 
 /// True if NAME=VALUE is a variable that mpirun (Open MPI, Slurm, MPICH, Intel) sets for the ranks it starts.

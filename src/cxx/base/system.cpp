@@ -5,6 +5,8 @@
 #include <stdlib.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <cstring>
 #include <thread>
 
 #if defined(__linux__)
@@ -109,6 +111,63 @@ ssize_t write_unchecked(int file, const void* bytes, std::size_t size) {
 #else
   return write(file, bytes, size);
 #endif
+}
+
+namespace {
+
+/// The number that stands behind `key` in the file, or first if the key is empty; SIZE_MAX if there is none.
+std::size_t number_in(const std::string& path, const char* key = "") {
+  std::size_t number = SIZE_MAX;
+  FILE* const file = fopen(path.c_str(), "re");
+  if (file == nullptr) return number;
+  char line[256];
+  while (number == SIZE_MAX && fgets(line, sizeof line, file) != nullptr)
+    if (const std::size_t length = strlen(key); strncmp(line, key, length) == 0)
+      if (sscanf(line + length, "%zu", &number) != 1 && length == 0) break;  // "max"
+  fclose(file);
+  return number;
+}
+
+/// The least limit of the control groups that this process is in: each may set one, and so may those above.
+std::size_t limit_of_control_groups() {
+  std::size_t least = SIZE_MAX;
+  FILE* const file = fopen("/proc/self/cgroup", "re");
+  if (file == nullptr) return least;
+  char line[PATH_MAX];
+  while (fgets(line, sizeof line, file) != nullptr) {  // NUMBER:CONTROLLERS:PATH
+    const char* const controllers = strchr(line, ':');
+    char* const path = controllers != nullptr ? strchr(line, '/') : nullptr;
+    if (path == nullptr) continue;
+    path[strcspn(path, "\n")] = '\0';
+    const bool second = strncmp(controllers, "::", 2) == 0;  // version 2
+    if (!second && strncmp(controllers, ":memory:", 8) != 0) continue;
+    const std::string root = second ? "/sys/fs/cgroup" : "/sys/fs/cgroup/memory";
+    const char* const name = second ? "/memory.max" : "/memory.limit_in_bytes";
+    for (char* end = path + strlen(path); end != nullptr; end = strrchr(path, '/')) {
+      *end = '\0';
+      least = std::min(least, number_in(root + path + name));
+    }
+  }
+  fclose(file);
+  return least;
+}
+
+}  // namespace
+
+std::size_t memory_limit() {
+  const long pages = sysconf(_SC_PHYS_PAGES), bytes = sysconf(_SC_PAGESIZE);
+  const bool known = pages > 0 && bytes > 0;
+  return std::min(known ? static_cast<std::size_t>(pages) * static_cast<std::size_t>(bytes) : SIZE_MAX,
+                  limit_of_control_groups());
+}
+
+std::size_t available_memory() {
+  const std::size_t of_machine = number_in("/proc/meminfo", "MemAvailable:"),
+                    limit = limit_of_control_groups(),
+                    own = number_in("/proc/self/status", "VmRSS:");  // both in kB
+  if (of_machine == SIZE_MAX) return SIZE_MAX;
+  return std::min(1024 * of_machine,
+                  limit == SIZE_MAX || own == SIZE_MAX ? SIZE_MAX : limit - std::min(limit, 1024 * own));
 }
 
 ProcessorSet usable_processors() {

@@ -45,4 +45,11 @@ ssize_t write_unchecked(int file, const void* bytes, std::size_t size);
 using ProcessorSet = std::array<std::uint64_t, 16>;
 ProcessorSet usable_processors();
 
+/// Bytes of memory that this process may use at most: of the machine, or of a control group that it is in
+/// (Slurm, containers), if one has less. SIZE_MAX if that is unknown; so is the next.
+std::size_t memory_limit();
+/// Bytes that it may still take without swapping: an upper bound, since others of its control group take
+/// theirs.
+std::size_t available_memory();
+
 }  // namespace pstripack

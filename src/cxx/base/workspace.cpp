@@ -1,32 +1,41 @@
 #include "base/workspace.h"
 
-#include <unistd.h>
+#include <sys/mman.h>
 
 #include <algorithm>
 #include <atomic>
+#include <cstdio>
 #include <mutex>
 #include <utility>
 
 #include "base/cached.h"
+#include "base/environment.h"
+#include "base/system.h"
 
 namespace pstripack {
 namespace {
 
 constexpr std::size_t kSmallest = std::size_t{64} << 10;  // malloc itself reuses smaller blocks
 
-std::size_t half_of_memory() {
-  const long pages = sysconf(_SC_PHYS_PAGES), bytes = sysconf(_SC_PAGESIZE);
-  return pages > 0 && bytes > 0 ? static_cast<std::size_t>(pages) / 2 * static_cast<std::size_t>(bytes) : 0;
-}
-
-/// Upper bound, in bytes, of all cached blocks together: half of the system's memory, because clearing fresh
-/// pages takes longer than filling them, and the system can take cached pages back. Initialised when the
-/// library is loaded: a static local could make the threads of the first call wait, which changes errno.
+/// Upper bound, in bytes, of all cached blocks together. PSTRIPACK_KEEP sets it. Without: half of the memory,
+/// because clearing fresh pages takes longer than filling them, and the system can take cached pages back.
+std::size_t most_cached() {
+  return read_once([] {
 #ifdef MADV_FREE
-const std::size_t most_cached = std::max(std::size_t{1} << 30, half_of_memory());
+    const std::size_t most = memory_limit() / 2;
 #else
-const std::size_t most_cached = std::size_t{1} << 30;
+    const std::size_t most = std::min(std::size_t{1} << 30, memory_limit() / 2);
 #endif
+    const char* const value = environment_variable("PSTRIPACK_KEEP");
+    if (value == nullptr || *value == '\0') return most;
+    char* end;
+    errno = 0;
+    const unsigned long long bytes = strtoull(value, &end, 10);
+    if (*value >= '0' && *value <= '9' && *end == '\0' && errno == 0) return static_cast<std::size_t>(bytes);
+    std::fprintf(stderr, "pstripack: PSTRIPACK_KEEP=%s: not a number of bytes; %zu is used\n", value, most);
+    return most;
+  });
+}
 
 constexpr std::size_t kCount = 16;  // number of cached blocks; a call on threads uses five
 /// The blocks between two calls, the newest first. Never destroyed: destructors of static objects and other
@@ -37,8 +46,8 @@ union NeverDestroyed {
   Buffer<unsigned char> block[kCount];
 } cache;
 Buffer<unsigned char> (&cached)[kCount] = cache.block;
-/// Bytes of CacheReservations. They count towards most_cached. The system cannot take their pages
-/// back, so at most a quarter of most_cached is allowed.
+/// Bytes of CacheReservations. They count towards most_cached(). The system cannot take their pages
+/// back, so at most a quarter of most_cached() is allowed.
 std::atomic<std::size_t> reserved{0};
 std::mutex mutex;  // only try_lock: in a forked child it may stay locked for ever
 
@@ -52,7 +61,7 @@ std::size_t rounded_up(std::size_t bytes) {
 }  // namespace
 
 CacheReservation::CacheReservation(std::size_t bytes) : bytes_(bytes) {
-  if (reserved.fetch_add(bytes) + bytes <= most_cached / 4) return;
+  if (reserved.fetch_add(bytes) + bytes <= most_cached() / 4) return;
   reserved -= bytes;
   throw std::bad_alloc();
 }
@@ -76,7 +85,7 @@ bool free_cached_blocks() noexcept {
 
 Block::Block(std::size_t bytes) {
   if (bytes >= kSmallest) bytes = rounded_up(bytes);
-  if (bytes >= kSmallest && bytes <= most_cached) {
+  if (bytes >= kSmallest && bytes <= most_cached()) {
     if (const std::unique_lock lock(mutex, std::try_to_lock); lock) {
       // Take the smallest that fits: a larger one may be needed next.
       Buffer<unsigned char>* best = nullptr;
@@ -86,10 +95,15 @@ Block::Block(std::size_t bytes) {
           best = &block;
       if (best != nullptr) {
         memory_ = std::exchange(*best, {});
+        is_reused_ = true;
         return;
       }
     }
   }
+  // The system promises more memory than there is, and kills the process where a page is missing later.
+  constexpr std::size_t kWorthAsking = std::size_t{1} << 30;
+  const auto fits = [&] { return bytes < kWorthAsking || bytes <= available_memory(); };
+  if (!fits() && (!free_cached_blocks() || !fits())) throw std::bad_alloc();
   try {
     memory_ = Buffer<unsigned char>(bytes);
   } catch (const std::bad_alloc&) {
@@ -98,8 +112,17 @@ Block::Block(std::size_t bytes) {
   }
 }
 
+void give_back_pages(void* begin, void* end) noexcept {
+  const auto first = reinterpret_cast<std::uintptr_t>(begin),
+             skipped = (kHugePage - first % kHugePage) % kHugePage;
+  const std::size_t bytes = reinterpret_cast<std::uintptr_t>(end) - first;
+  if (bytes > skipped + kHugePage)
+    madvise(static_cast<unsigned char*>(begin) + skipped, (bytes - skipped) / kHugePage * kHugePage,
+            MADV_DONTNEED);
+}
+
 Block::~Block() {
-  if (memory_.size() < kSmallest || memory_.size() > most_cached) return;
+  if (memory_.size() < kSmallest || memory_.size() > most_cached()) return;
 #ifdef MADV_FREE
   // Where a hypervisor keeps page tables of its own, the next call pays 1 us a page for this.
   constexpr std::size_t kWorthASystemCall = std::size_t{32} << 20;
@@ -114,7 +137,7 @@ Block::~Block() {
   for (; last > 0; --last) cached[last] = std::move(cached[last - 1]);
   cached[0] = std::move(memory_);
   for (std::size_t k = 1; k < kCount; ++k)
-    if ((total += cached[k].size()) > most_cached) cached[k] = {};
+    if ((total += cached[k].size()) > most_cached()) cached[k] = {};
 }
 
 }  // namespace pstripack

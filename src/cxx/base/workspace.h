@@ -25,6 +25,7 @@ class Block {
   Block(Block&& other) noexcept = default;
   Block& operator=(Block&& other) noexcept {
     std::swap(memory_, other.memory_);
+    std::swap(is_reused_, other.is_reused_);
     return *this;
   }
   ~Block();
@@ -32,10 +33,18 @@ class Block {
   unsigned char* data() { return memory_.data(); }
   const unsigned char* data() const { return memory_.data(); }
   std::size_t size() const { return memory_.size(); }
+  /// True if the pages that a call does not need any more should go back to the system, so that the caller's
+  /// lists fit beside it: for new blocks of 4 GiB or more, 26 million nodes. In later calls the lists have
+  /// their pages already.
+  bool gives_back_pages() const { return size() >= std::size_t{4} << 30 && !is_reused_; }
 
  private:
   Buffer<unsigned char> memory_;
+  bool is_reused_ = false;
 };
+
+/// Gives the pages between two addresses of a block back; what they hold is lost.
+void give_back_pages(void* begin, void* end) noexcept;
 
 /// Frees all cached blocks and the things of base/cached.h. False if nothing was freed.
 bool free_cached_blocks() noexcept;
@@ -105,6 +114,11 @@ class Workspace {
   }
 
   void next_phase() { back_ = size_; }
+  /// To be called when the arrays of this phase are the last that are needed.
+  void keep_only_this_phase() {
+    if (block_.gives_back_pages()) give_back_pages(begin_, begin_ + back_);
+    front_ = 0;
+  }
   void clear() { front_ = 0, back_ = size_; }
 
  private:

@@ -8,14 +8,18 @@
 #include <cstdio>
 #include <cstring>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "base/floating_point.h"
+#include "base/system.h"
+#include "base/workspace.h"
 #include "capi/hooks.h"
 #include "capi/version.h"
 #include "geometry/node_arrays.h"
 #include "lists/adjacency_lists.h"
 #include "lists/limits.h"
+#include "mesh/delaunay.h"
 #include "observe/check.h"
 #include "observe/report.h"
 #include "stripack/original/original_rules.h"
@@ -78,6 +82,18 @@ TrmeshResult carry_out(const TrmeshCall& call, CallReport* report) noexcept {
   return result;
 }
 
+/// What a call without memory needs, and the number of nodes that there is memory for.
+std::string what_fits(std::int64_t nodes) {
+  const double needed = static_cast<double>(workspace_bytes(1)) * static_cast<double>(nodes),
+               available = static_cast<double>(available_memory());
+  if (needed < available) return "";
+  char text[200];
+  std::snprintf(text, sizeof text,
+                ": %.1f GB are needed beside the arrays of the call, %.1f GB are free: enough for %.0f nodes",
+                needed * 1e-9, available * 1e-9, std::floor(available / needed * static_cast<double>(nodes)));
+  return text;
+}
+
 /// TRMESH with its report, its recording and its messages. `nodes` is clamped to 32 bits: all numbers
 /// beyond give the same code.
 TrmeshResult trmesh_with_messages(std::int64_t nodes, const NodeArrays& arrays, const ListArrays& lists,
@@ -116,8 +132,10 @@ TrmeshResult trmesh_with_messages(std::int64_t nodes, const NodeArrays& arrays, 
                    "(IER = -7)\n",
                    n, rank);
   } else if (result.ier < PSTRIPACK_COLLINEAR) {
-    std::fprintf(stderr, "pstripack: trmesh: %lld nodes: %s (IER = %d)\n", static_cast<long long>(nodes),
-                 pstripack_strerror(result.ier), static_cast<int>(result.ier));
+    std::fprintf(stderr, "pstripack: trmesh: %lld nodes: %s%s (IER = %d)\n", static_cast<long long>(nodes),
+                 pstripack_strerror(result.ier),
+                 result.ier == PSTRIPACK_OUT_OF_MEMORY ? what_fits(nodes).c_str() : "",
+                 static_cast<int>(result.ier));
   }
   return result;
 }
@@ -154,6 +172,8 @@ void pstripack_set_trmesh_engine(Engine* engine) { communicator.store(engine, st
 int pstripack_report_is_wanted(void) { return report_is_wanted(); }
 void pstripack_add_to_report(const CallReport* call) { add_to_report(*call); }
 void pstripack_leave_check_to_another_rank(int leave) { leave_check_to_another_rank(leave != 0); }
+
+void pstripack_release_memory(void) { free_cached_blocks(); }
 
 const char* pstripack_version(void) { return PSTRIPACK_VERSION; }
 

@@ -65,6 +65,11 @@ PSTRIPACK_API const char* pstripack_version(void);
 /* One line of text for an error code, without a newline; never NULL. Do not free it. */
 PSTRIPACK_API const char* pstripack_strerror(int ier);
 
+/* Frees the memory that the library keeps in this process for the next call (PSTRIPACK_KEEP bounds it):
+ * blocks of arrays, and the mesh from which a warm start would begin. Meshes and communicators that the
+ * program holds stay. May be called at any time, by any thread. */
+PSTRIPACK_API void pstripack_release_memory(void);
+
 /* The Delaunay triangulation of n nodes, as canonical lists.
  *   n           number of nodes, 3 to 357,913,943
  *   x, y, z     in: n coordinates each; vectors from the centre of the sphere to the nodes, of any length

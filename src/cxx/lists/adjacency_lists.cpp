@@ -44,6 +44,7 @@ std::int32_t write_lists(const Hull& hull, std::int32_t* list, std::int32_t* lpt
       [&](std::size_t v, const std::int32_t* place, std::uint32_t) {
         ring_of[hull.order[v]] = static_cast<std::uint32_t>(place - rings);
       });
+  workspace.keep_only_this_phase();
   // Then, in the order of the caller's nodes, so that the lists are written from front to back: copy the
   // rings.
   write_piece(StoredRings{rings, ring_of, n}, 0, list, lend, 1);

@@ -10,6 +10,7 @@ namespace pstripack {
 
 /// A node: from 0, < 2^29, in the order of insertion. The caller's node is Hull::order[v].
 using HullNode = std::uint32_t;
+constexpr std::int64_t kMostHullNodes = (std::int64_t{1} << 29) - 1;
 
 /// A face: from 0, < 2^30.
 using HullFace = std::uint32_t;

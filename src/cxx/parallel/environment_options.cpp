@@ -1,6 +1,5 @@
 #include "parallel/environment_options.h"
 
-#include <cerrno>
 #include <cstdio>
 #include <cstring>
 
@@ -18,16 +17,6 @@ PartitionKind partition_from_environment() {
   std::fprintf(stderr, "pstripack: PSTRIPACK_PARTITION=%s: not bisection or stripes; bisection is used\n",
                name);
   return PartitionKind::bisection;
-}
-
-/// What read() returns, once. Threads that wait here for each other may find another errno: the program's
-/// must stay.
-template <class Read>
-auto read_once(const Read& read) {
-  const int error = errno;
-  static const auto value = read();
-  errno = error;
-  return value;
 }
 
 }  // namespace

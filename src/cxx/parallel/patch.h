@@ -183,6 +183,10 @@ class Patch {
   /// there is not enough.
   void* room_for_rings(std::size_t bytes) const { return hull_.room_for_rings(bytes); }
 
+  /// Gives back the pages of what is not needed after finish(), or after the last ring and boundary_nodes().
+  void give_back_planes() const { hull_.give_back_planes(); }
+  void give_back_hull() const { hull_.give_back_hull(); }
+
   /// Writes the rings of its own nodes to `out`, which has room for all and 2*kBlock entries more; calls
   /// visit(i, place, count) for each: the ring of its node i lies at `place`; soon(i) some time before.
   /// Returns the end.

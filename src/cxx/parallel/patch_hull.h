@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "base/workspace.h"
+#include "capi/pstripack.h"
 #include "geometry/insertion_order.h"
 #include "mesh/delaunay.h"
 #include "mesh/ring_table.h"
 #include "parallel/coincidence.h"
+#include "parallel/communicator.h"
 #include "parallel/local_numbers.h"
 #include "parallel/number_table.h"
 #include "parallel/places.h"
@@ -31,11 +33,12 @@ class PatchHull {
     return nodes * sizeof(PatchNode) + bytes_of_arrays(capacity_for(nodes)) + Workspace::kSlack;
   }
   /// Sorts the nodes; `leading` are others, which come first. The workspace must outlive the hull and its
-  /// rings, `nodes` only this call. Throws HiddenNode if a quick test finds one, std::bad_alloc.
+  /// rings, `nodes` only this call. Throws HiddenNode if a quick test finds one, std::bad_alloc, Failure(-4).
   void set_up(const PatchNodes& nodes, const std::vector<SentNode>& leading, Workspace& workspace) {
     own_ = nodes.own;
     const std::size_t first = leading.size();
     built_ = nodes.count() + first;
+    if (static_cast<std::int64_t>(built_) > kMostHullNodes) throw Failure(PSTRIPACK_TOO_MANY_NODES);
     order_ = workspace.for_call<PatchNode>(built_);
     leading_ = first + insertion_order(&nodes.first->point, nodes.count(), order_ + first, workspace,
                                        sizeof(SentNode));
@@ -151,6 +154,10 @@ class PatchHull {
   void* room_for_rings(std::size_t bytes) const {
     return bytes <= 2 * built_ * sizeof(Plane) ? first_planes_ : nullptr;
   }
+
+  /// Gives back the pages of what is not needed after finish(), or after the last ring.
+  void give_back_planes() const { give_back_pages(first_planes_, first_planes_ + 2 * built_); }
+  void give_back_hull() const { give_back_pages(order_, first_planes_); }
 
   /// Writes the rings of the own nodes, as `finished` has them, to `out`: see Patch::write_rings.
   template <class Visit, class Soon>

@@ -59,6 +59,7 @@ Patches<Int> triangulate_patches(Delivery& delivery, const Division& division, C
       patch.set_up(division.closing, part);
     });
     delivery.nodes = {};
+    if (patches.memory.gives_back_pages()) free_idle_blocks();
   });
   // Ranks have agreed that no patch has seen a hidden node yet, so none is triangulated for nothing.
   in_agreement(

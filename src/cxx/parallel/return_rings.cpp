@@ -34,6 +34,7 @@ StarSums write_rings(Patches<Int>& patches, const RingAddresses& addresses, Rank
   patches.for_each(threads, [&](Patch<Int>& patch, PatchHere k) {
     Part& part = parts[k];
     const std::size_t bytes = (patch.entries() + 2 * kBlock) * sizeof(Int);
+    if (patches.memory.gives_back_pages()) patch.give_back_planes();
     auto* out = outside != nullptr ? nullptr : static_cast<Int*>(patch.room_for_rings(bytes));
     if (out == nullptr) {
       part.memory = Block(bytes);
@@ -62,6 +63,7 @@ StarSums write_rings(Patches<Int>& patches, const RingAddresses& addresses, Rank
     }
     const auto own = static_cast<std::int64_t>(patch.own());
     part.sums = {own, end - out - own, patch.boundary_nodes()};
+    if (patches.memory.gives_back_pages()) patch.give_back_hull();
   });
   StarSums sum;
   for (Part& part : parts) {

@@ -25,6 +25,7 @@
 #include <memory>
 #include <utility>
 
+#include "capi/pstripack.h"
 #include "mesh/delaunay.h"
 #include "parallel/certify.h"
 #include "parallel/deliver.h"
@@ -90,6 +91,9 @@ Stars<Int> triangulate(const LocalNodes& nodes, const NodeCheck& check, const Po
     try {
       return triangulate_places<Int>(nodes, records, places, ranks, options, c, &homes);
     } catch (const PatchesDoNotPay&) {
+      std::int64_t all = static_cast<std::int64_t>(nodes.count);
+      ranks.all_sum(&all, 1);
+      if (all > kMostHullNodes) throw AgreedFailure(PSTRIPACK_TOO_MANY_NODES);
       // One patch, of rank 0. The homes stay those of the many patches, which may pay in another call.
       c.in_one_patch = 1;
     }
