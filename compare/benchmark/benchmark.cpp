@@ -127,6 +127,7 @@ int main(int argc, char** argv) {
   app.add_option("--model-order", model.order)->group("");
   app.add_option("--model-nodes", model.n)->group("");
   app.add_option("--model-pause", model.pause_ms)->group("");
+  app.add_option("--model-work", model.work)->group("");
   MovingModel moving_model;  // see run_time_of_warm_starts
   app.add_option("--be-the-moving-model", moving_model.moves)->group("");
   try {

@@ -38,18 +38,15 @@ struct Case {
   std::string setting{};                    // of PSTRIPACK_ORDER, for TRMESH
 };
 
-const std::string kUntilItRuns = "until-it-runs";  // an order, see nodes_of()
-
 const std::vector<Case> kCases{
     {"random-1e4", Routine::trmesh, "random", "given", 10000, true},
     {"random-1e5", Routine::trmesh, "random", "given", 100000, true},
     {"random-1e6", Routine::trmesh, "random", "given", 1000000, true},
     {"latlon-1e5", Routine::trmesh, "latlon", "given", 100000},
-    {"icosahedral-12", Routine::trmesh, "icosahedral", kUntilItRuns, 12},
-    {"icosahedral-42", Routine::trmesh, "icosahedral", kUntilItRuns, 42},
-    {"icosahedral-162", Routine::trmesh, "icosahedral", kUntilItRuns, 162},
-    {"icosahedral-642", Routine::trmesh, "icosahedral", kUntilItRuns, 642},
-    {"icosahedral-2562", Routine::trmesh, "icosahedral", kUntilItRuns, 2562},
+    {"icosahedral-42", Routine::trmesh, "icosahedral", "shuffled", 42},
+    {"icosahedral-162", Routine::trmesh, "icosahedral", "shuffled", 162},
+    {"icosahedral-642", Routine::trmesh, "icosahedral", "shuffled", 642},
+    {"icosahedral-2562", Routine::trmesh, "icosahedral", "shuffled", 2562},
     {"trlist-1e5", Routine::trlist, "random", "given", 100000},
     {"trlist-1e6", Routine::trlist, "random", "given", 1000000, false, true},
     {"crlist-1e6", Routine::crlist, "random", "given", 1000000},
@@ -117,30 +114,11 @@ std::string ratio(const Samples& theirs, const Samples& own) {
   return theirs.empty() ? "-" : fmt::format("{:.2f}", theirs.median() / own.median());
 }
 
-/// The nodes of a case. Symmetric sets are shuffled until the first three nodes are not on one great circle
-/// and the original returns.
-std::vector<Point> nodes_of(const Case& c, const std::optional<legacy_stripack::Original>& original_library) {
-  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
-    if (c.order != kUntilItRuns) return nodes_in_order(c.family, static_cast<std::size_t>(c.n), c.order);
-    std::vector<Point> points = point_sets::make(c.family, static_cast<std::size_t>(c.n), 1);
-    point_sets::shuffle(points, seed);
-    const Nodes nodes(points);
-    Lists lists(nodes.n());
-    const int ier = pstripack_trmesh(nodes.n(), nodes.x.data(), nodes.y.data(), nodes.z.data(),
-                                     lists.list.data(), lists.lptr.data(), lists.lend.data(), &lists.lnew);
-    if (ier != 0) continue;
-    if (!original_library) return points;
-    const auto result = original_library->triangulate(points, 5);
-    if (result.outcome == Outcome::returned && result.ier == 0) return points;
-  }
-  throw std::runtime_error("no order of the nodes that the original can triangulate");
-}
-
 void run(const Case& c, const std::string& self, const std::optional<legacy_stripack::Original>& if_any,
          int repeats) {
   const std::optional<legacy_stripack::Original> none;
   const auto& original_library = c.takes_the_original_minutes ? none : if_any;
-  const std::vector<Point> points = nodes_of(c, original_library);
+  const std::vector<Point> points = nodes_in_order(c.family, static_cast<std::size_t>(c.n), c.order);
   const Nodes nodes(points);
   const int calls = std::max(1, 200000 / nodes.n());
 
@@ -208,6 +186,7 @@ const std::vector<Table> kTables{
     {"scvt", [](const Call& c) { run_time_of_scvt(c.settings.quick); }},
     {"threads", [](const Call& c) { run_time_of_threads(c.self, c.settings.repeats); }},
     {"busy", [](const Call& c) { run_time_of_threads_on_busy_machine(c.self, c.settings.repeats); }},
+    {"thread-counts", [](const Call& c) { run_scaling_of_threads(c.self, c.settings.repeats); }},
     {"distributions", [](const Call& c) { run_time_of_distributions(c.settings.sets, c.settings.repeats); }},
     table_of_queries("queries-1e3", 1000),
     table_of_queries("queries-1e4", 10000),

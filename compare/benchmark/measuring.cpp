@@ -31,13 +31,17 @@ double measured(const std::function<double()>& work) {
   return m.seconds;
 }
 
-double seconds_a_call(const std::function<void()>& call, int calls) {
-  auto start = Clock::now();
+double seconds_of(const std::function<void()>& call) {
+  const auto start = Clock::now();
   call();
-  const double first = seconds_since(start);
+  return seconds_since(start);
+}
+
+double seconds_a_call(const std::function<void()>& call, int calls) {
+  const double first = seconds_of(call);
   constexpr double kLong = 4;
   if (first >= kLong) return first;
-  start = Clock::now();
+  const auto start = Clock::now();
   for (int i = 0; i < calls; ++i) call();
   return seconds_since(start) / calls;
 }

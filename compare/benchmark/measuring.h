@@ -24,6 +24,7 @@ Measurement measure(const std::function<double()>& work, double time_limit);
 /// The same; throws std::runtime_error if it does not end within half an hour.
 double measured(const std::function<double()>& work);
 
+double seconds_of(const std::function<void()>& call);
 /// The mean time of `calls` calls after an unmeasured first one, for which the system clears pages. If the
 /// first call takes 4 seconds or more, its time is returned.
 double seconds_a_call(const std::function<void()>& call, int calls);

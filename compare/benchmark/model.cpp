@@ -13,6 +13,7 @@
 #include "contenders.h"
 #include "measuring.h"
 #include "orders.h"
+#include "pstripack.h"
 
 namespace benchmark {
 namespace {
@@ -36,9 +37,55 @@ double median_with_pauses(const Model& model) {
   return samples.median();
 }
 
+void width_at(std::int32_t n, const double* xyz, double* values, void*) {
+  for (std::int32_t i = 0; i < n; ++i) values[i] = 45 + 15 * xyz[3 * i + 2];
+}
+
+double seconds_of_scvt(const Model& model) {
+  const pstripack_density width{width_at, nullptr, 1};
+  pstripack_scvt_options options{};
+  options.bytes = sizeof options;
+  options.widths = model.work == Work::widths;
+  std::vector<double> x(static_cast<std::size_t>(model.n)), y(x), z(x);
+  pstripack_scvt_result result;
+  char message[200] = "";
+  return seconds_of([&] {
+    if (pstripack_scvt(model.n, x.data(), y.data(), z.data(), options.widths ? &width : nullptr, &options,
+                       &result, message, sizeof message) != 0)
+      throw std::runtime_error(message);
+  });
+}
+
+/// The median of all but the first call, for which the system clears pages.
+double median_of_calls(const Model& model) {
+  const Nodes nodes(nodes_in_order(model.points, static_cast<std::size_t>(model.n), model.order));
+  const Stripack library = ours();
+  Lists lists(model.n);
+  library.trmesh(nodes, lists);
+  const std::size_t triangles = 2 * nodes.all.size() - 4;
+  std::vector<int> numbers(9 * triangles);
+  std::vector<double> centres(4 * triangles);
+  Samples samples;
+  for (int call = 0; call <= model.calls; ++call) {
+    const double seconds = seconds_of([&] {
+      if (model.work == Work::trlist)
+        library.trlist(model.n, lists, 9, numbers);
+      else
+        library.crlist(nodes, lists, numbers, centres);
+    });
+    if (call > 0) samples.add(seconds);
+  }
+  return samples.median();
+}
+
 }  // namespace
 
 int be_the_model(const Model& model) {
+  if (model.work != Work::trmesh) {
+    const bool is_scvt = model.work == Work::scvt || model.work == Work::widths;
+    fmt::print("{} 0\n", is_scvt ? seconds_of_scvt(model) : median_of_calls(model));
+    return 0;
+  }
   const Nodes nodes(nodes_in_order(model.points, static_cast<std::size_t>(model.n), model.order));
   const Stripack library = ours();
   Lists lists(nodes.n());
@@ -57,8 +104,10 @@ int be_the_model(const Model& model) {
 
 ModelFigures as_model(const std::string& self, const std::string& launcher, const Model& model) {
   const std::string command = fmt::format(
-      "{} '{}' --be-the-model {} --model-points {} --model-order {} --model-nodes {} --model-pause {}",
-      launcher, self, model.calls, model.points, model.order, model.n, model.pause_ms);
+      "{} '{}' --be-the-model {} --model-points {} --model-order {} --model-nodes {} --model-pause {} "
+      "--model-work {}",
+      launcher, self, model.calls, model.points, model.order, model.n, model.pause_ms,
+      static_cast<int>(model.work));
   FILE* const out = popen(command.c_str(), "r");
   ModelFigures figures, one;
   bool is_told = false;

@@ -6,9 +6,14 @@
 
 namespace benchmark {
 
+/// What a call of the model does: triangulates, reads a mesh, or makes a centroidal one, of one width or of
+/// 60 to 30 km.
+enum class Work { trmesh, trlist, crlist, scvt, widths };
+
 struct Model {
   std::string points = "random", order = "given";
   int n = 1000000, calls = 0;
+  Work work = Work::trmesh;
   int pause_ms = -1;  ///< between calls with other nodes each, whose median is taken; -1: all have the same
 };
 

@@ -5,11 +5,15 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <memory>
+#include <thread>
 #include <vector>
 
 #include "measuring.h"
 #include "model.h"
+#include "time_of_warm_starts.h"
 
 namespace benchmark {
 namespace {
@@ -61,7 +65,64 @@ void print_head(const std::string& title) {
   fmt::print("\n{}\n\n{:<34} {:>10} {:>10} {:>10}\n", title, "ms a call", "default", "1 thread", "ratio");
 }
 
+/// GB/s of a = b + 3c on arrays that are larger than the caches (McCalpin's STREAM), the best of ten rounds.
+double triad(int threads) {
+  constexpr std::ptrdiff_t kSize = 40'000'000;
+  const auto array = [] { return std::unique_ptr<double[]>(new double[kSize]); };
+  const auto a = array(), b = array(), c = array();
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (std::ptrdiff_t i = 0; i < kSize; ++i) a[i] = 0, b[i] = 1, c[i] = 2;
+  double best = INFINITY;
+  for (int round = 0; round < 10; ++round)
+    best = std::min(best, seconds_of([&] {
+#pragma omp parallel for num_threads(threads) schedule(static)
+                      for (std::ptrdiff_t i = 0; i < kSize; ++i) a[i] = b[i] + 3 * c[i];
+                    }));
+  return 24e-9 * kSize / best;
+}
+
 }  // namespace
+
+void run_scaling_of_threads(const std::string& self, int repeats) {
+  const int processors = static_cast<int>(std::thread::hardware_concurrency());
+  std::vector<int> threads;
+  for (int t = 1; t < processors; t *= 2) threads.push_back(t);
+  threads.push_back(processors);
+  fmt::print("\nmilliseconds a call, and how many times as fast as on one thread\n\n{:<30} {:>9}", "threads",
+             "");
+  for (const int t : threads) fmt::print(" {:>10} {:>6}", t, "");
+  fmt::print("\n{:<30} {:>9}", "triad, GB/s", "");
+  double one = 0;
+  for (const int t : threads) {
+    const double speed = triad(t);
+    if (one == 0) one = speed;
+    fmt::print(" {:>10.1f} {:>6.2f}", speed, speed / one);
+  }
+  fmt::print("\n");
+  const auto print = [&](const char* name, int n, int runs, const auto& seconds) {
+    std::vector<Samples> samples(threads.size());
+    for (int run = 0; run < runs; ++run)
+      for (std::size_t k = 0; k < threads.size(); ++k) samples[k].add(seconds(n, threads[k]));
+    fmt::print("{:<30} {:>9}", name, n);
+    for (const Samples& s : samples)
+      fmt::print(" {:>10.3f} {:>6.2f}", 1e3 * s.median(), samples[0].median() / s.median());
+    fmt::print("\n");
+    std::fflush(stdout);
+  };
+  const auto of = [&](Work work) {
+    return [&self, work](int n, int t) {
+      const Model model{"random", "given", n, std::clamp(3000000 / n, 1, 20), work};
+      return as_model(self, fmt::format("OMP_NUM_THREADS={}", t), model).seconds;
+    };
+  };
+  for (const int n : {100000, 1000000}) print("TRMESH", n, repeats, of(Work::trmesh));
+  print("TRMESH", 10000000, 1, of(Work::trmesh));
+  print("TRMESH, moved by 1e-3", 1000000, 1, [&](int, int t) { return seconds_of_warm_call(self, t); });
+  print("TRLIST", 1000000, repeats, of(Work::trlist));
+  print("CRLIST", 1000000, repeats, of(Work::crlist));
+  print("scvt, one width", 92000, 1, of(Work::scvt));
+  print("scvt, 60 to 30 km", 320000, 1, of(Work::widths));
+}
 
 void run_time_of_threads(const std::string& self, int repeats) {
   print_head("TRMESH, other random nodes in each call, 20 ms between the calls");

@@ -12,4 +12,8 @@ void run_time_of_threads(const std::string& self, int repeats);
 /// Writes a table: the same where other ranks or programs need the processors, without a pause.
 void run_time_of_threads_on_busy_machine(const std::string& self, int repeats);
 
+/// Writes a table: triad of STREAM, TRMESH, TRLIST, CRLIST and centroidal meshes on 1, 2, 4, ... and all
+/// processors.
+void run_scaling_of_threads(const std::string& self, int repeats);
+
 }  // namespace benchmark

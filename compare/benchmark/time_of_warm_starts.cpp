@@ -17,13 +17,13 @@ namespace {
 
 using pstripack::Point;
 
-enum class Moves { lloyd, other, none };
+enum class Moves { lloyd, random, other, none };
 
 struct Row {
   std::string name;
   int n, threads;
   Moves moves;
-  double part;        ///< fraction of a step of Lloyd's method
+  double part;        ///< of a step of Lloyd's method; random: of the mean distance of nodes
   int before, calls;  ///< number of Lloyd steps before; number of measured calls
 };
 
@@ -32,6 +32,9 @@ const std::vector<Row> kRows{
     {"lloyd-1e6", 1000000, 1, Moves::lloyd, 0.06, 12, 6},
     {"lloyd-1e6-threads", 1000000, 2, Moves::lloyd, 0.06, 12, 6},
     {"flips-1e5", 100000, 1, Moves::lloyd, 0.4, 5, 5},
+    {"random-1e-3", 100000, 1, Moves::random, 1e-3, 0, 5},
+    {"random-1e-2", 100000, 1, Moves::random, 1e-2, 0, 5},
+    {"random-1e6", 1000000, 1, Moves::random, 1e-3, 0, 5},
     {"other-1e5", 100000, 1, Moves::other, 0, 0, 12},
     {"first-1e5", 100000, 1, Moves::none, 0, 0, 1},
 };
@@ -57,6 +60,15 @@ std::vector<Point> lloyd_step(const Nodes& nodes, const Lists& lists, double par
   return moved;
 }
 
+/// Moves each node by so much in a random direction.
+std::vector<Point> random_step(const std::vector<Point>& points, double by, std::uint64_t seed) {
+  const std::vector<Point> towards = point_sets::make("random", points.size(), seed);
+  std::vector<Point> moved;
+  for (std::size_t k = 0; k < points.size(); ++k)
+    moved.push_back(point_sets::part_of_the_way(points[k], towards[k], by));
+  return moved;
+}
+
 struct Times {
   std::vector<double> cold, warm;
   double flips = 0;  ///< mean number of flips of warm calls
@@ -64,10 +76,10 @@ struct Times {
 };
 
 /// Runs the row's model once and adds its times, the last lines of its report.
-void run_model(const std::string& self, const Row& row, bool warm, Times& times) {
+void run_model(const std::string& self, const Row& row, int threads, bool warm, Times& times) {
   const std::string command = fmt::format(
       "OMP_NUM_THREADS={} PSTRIPACK_WARM_START={} PSTRIPACK_REPORT=/dev/stdout '{}' --be-the-moving-model {}",
-      row.threads, warm ? 1 : 0, self, row.name);
+      threads, warm ? 1 : 0, self, row.name);
   FILE* const out = popen(command.c_str(), "r");
   if (out == nullptr) throw std::runtime_error("cannot start " + command);
   struct Call {
@@ -110,9 +122,17 @@ int be_the_moving_model(const MovingModel& model) {
   for (int step = r.moves == Moves::none ? 2 : 0; step < r.calls + 2; ++step) {
     const Nodes nodes = call();
     if (r.moves == Moves::lloyd) points = lloyd_step(nodes, lists, r.part);
+    if (r.moves == Moves::random)
+      points = random_step(points, r.part * std::sqrt(4 * M_PI / r.n), static_cast<std::uint64_t>(step) + 2);
     if (r.moves == Moves::other) points = point_sets::make("random", n, static_cast<std::uint64_t>(step) + 2);
   }
   return 0;
+}
+
+double seconds_of_warm_call(const std::string& self, int threads) {
+  Times times;
+  run_model(self, row("random-1e6"), threads, true, times);
+  return *std::min_element(times.warm.begin(), times.warm.end());
 }
 
 void run_time_of_warm_starts(const std::string& self, int repeats) {
@@ -128,7 +148,7 @@ void run_time_of_warm_starts(const std::string& self, int repeats) {
                                  : r.n >= 1000000 ? std::min(repeats, 3)
                                                   : repeats);
     for (int run = 0; run < runs; ++run)
-      for (const bool warm : {false, true}) run_model(self, r, warm, times);
+      for (const bool warm : {false, true}) run_model(self, r, r.threads, warm, times);
     const double cold = *std::min_element(times.cold.begin(), times.cold.end()),
                  warm = *std::min_element(times.warm.begin(), times.warm.end());
     fmt::print("{:<18} {:>8} {:>7} {:>9.4f} {:>9.4f} {:>11.2f} {:>9.5f} {:>12}\n", r.name, r.n, r.threads,

@@ -13,6 +13,9 @@ struct MovingModel {
 /// Runs this program as such a model; the report has the times. Returns the exit code.
 int be_the_moving_model(const MovingModel& model);
 
+/// The least time of a call on 10^6 random nodes that moved by a thousandth of their distance.
+double seconds_of_warm_call(const std::string& self, int threads);
+
 /// Writes a row for each way of moving to stdout.
 void run_time_of_warm_starts(const std::string& self, int repeats);
 
