@@ -12,6 +12,7 @@
 #include "point_sets.h"
 #include "scvt/evaluator.h"
 #include "scvt/tessellation.h"
+#include "support/formula_density.h"
 
 namespace {
 
@@ -132,19 +133,13 @@ TEST(Cells, OfAGreatCircleUpToRoundingAreRight) {
 
 /// The density jumps at each cell of a cluster, so that these are integrated as rough cells.
 TEST(Cells, OfARoughDensityInAClusterHavePositiveIntegrals) {
-  class Jump final : public Density {
-   public:
-    using Density::at;
-    void at(std::size_t n, const Point* p, double* value) const override {
-      for (std::size_t i = 0; i < n; ++i) value[i] = p[i].x > p[i].y ? 100 : 1;
-    }
-  };
+  const FormulaDensity jump([](const Point& p) { return p.x > p.y ? 100 : 1; });
   for (const double width : {1e-7, 1e-12}) {
     const std::vector<Point> points = cluster(point_sets::normalized({0.3, 0.3, 0.8}), width, 20, 1);
     std::vector<std::int32_t> list, lptr, lend;
     const NeighbourLists stars = triangulate(points, list, lptr, lend);
     Cells cells;
-    integrate(points.data(), stars, Jump(), cells);
+    integrate(points.data(), stars, jump, cells);
     for (std::size_t i = 0; i < points.size(); ++i) {
       EXPECT_TRUE(is_good(cells, i)) << i;
       const double area = static_cast<double>(exact(points, stars, i).mass);

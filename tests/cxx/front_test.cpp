@@ -15,23 +15,12 @@
 #include "scvt/evaluator.h"
 #include "scvt/first_generators.h"
 #include "scvt/minimize.h"
+#include "support/formula_density.h"
 
 namespace {
 
 using namespace pstripack;
 using namespace pstripack::scvt;
-
-class FormulaDensity final : public Density {
- public:
-  explicit FormulaDensity(std::function<double(const Point&)> formula) : formula_(std::move(formula)) {}
-  using Density::at;
-  void at(std::size_t n, const Point* p, double* value) const override {
-    std::transform(p, p + n, value, formula_);
-  }
-
- private:
-  std::function<double(const Point&)> formula_;
-};
 
 const Point kCentre{0.36, 0.48, 0.8};
 double distance(const Point& p, const Point& q) {

@@ -202,30 +202,12 @@ TEST(NodesThatAllCanRead, GiveTheSerialRings) {
     }
 }
 
-TEST(LargePatches, GiveTheSerialRings) {
-  for (const char* family : {"random", "latlon", "variable:1e6", "hemisphere"}) {
-    const Set set(point_sets::make(family, 120000, 6));
-    EXPECT_TRUE(
-        is_serial(set, run<std::int32_t>(set.nodes, {2, 1, PartitionKind::bisection, Brings::slices})))
-        << family;
-  }
-}
-
 // ---- nasty sets -------------------------------------------------------------------------------------
 
 /// Within about this distance of p.
 Point beside(const Point& p, double distance, point_sets::Random& random) {
   const Point q = random.direction();
   return point_sets::normalized({p.x + distance * q.x, p.y + distance * q.y, p.z + distance * q.z});
-}
-
-TEST(Nasty, MoreRanksThanPoints) {
-  for (const std::size_t n : {3u, 4u, 5u, 7u}) {
-    const Set set(point_sets::make("random", n, 11));
-    for (const Brings brings : {Brings::slices, Brings::every_other, Brings::home})
-      EXPECT_TRUE(is_serial(set, run<std::int32_t>(set.nodes, {16, 1, PartitionKind::bisection, brings})))
-          << n;
-  }
 }
 
 TEST(Nasty, AVoidAsLargeAsAContinent) {
@@ -402,19 +384,6 @@ TEST(Coincident, SameDirectionOnBothSidesOfABorder) {
       return ::testing::AssertionFailure() << "outside of rank " << r;
   }
   return ::testing::AssertionSuccess();
-}
-
-TEST(Neighbours, OutsideAreExactlyThoseNotBrought) {
-  const Set set(point_sets::make("random", 1500, 6));
-  for (const auto& [patches, brings] : {std::pair{1, Brings::home},
-                                        {1, Brings::every_other},
-                                        {2, Brings::home},
-                                        {2, Brings::every_other},
-                                        {2, Brings::rank_0}}) {
-    const Configuration c{5, patches, PartitionKind::bisection, brings};
-    EXPECT_TRUE(has_outside(set, ranks_that_bring(set.nodes, c), run<std::int32_t>(set.nodes, c, true)))
-        << name_of(c);
-  }
 }
 
 // ---- patches of the last call -----------------------------------------------------------------------
@@ -755,26 +724,6 @@ TEST(GivingUp, NodesThatAreCloseTogetherAreNoReasonToAsk) {
 
 // ---- agreement --------------------------------------------------------------------------------------
 
-TEST(Agreement, GivesTheSerialRingsOfEveryFamily) {
-  std::vector<std::string> families = kFamilies;
-  families.insert(families.end(), {"crossing:1e-3", "moment:6", "nest:150", "falling:14", "rays:12",
-                                   "small-circle:1", "two-curves:1e-3", "tracks:50"});
-  int agreed = 0;
-  for (const std::string& family : families)
-    for (const std::size_t n : {12u, 60u, 400u}) {
-      const Set set(point_sets::make(family, family == "nest:150" ? 60 : n, n));
-      for (const int ranks : {2, 3, 5, 8, 16}) {
-        const Configuration c{ranks, ranks == 3 ? 2 : 1,
-                              ranks == 5 ? PartitionKind::stripes : PartitionKind::bisection,
-                              Brings::every_other};
-        const Outcome out = run<std::int32_t>(set.nodes, c, true, 2);
-        ASSERT_TRUE(is_serial(set, out)) << family << " " << n << " " << name_of(c);
-        agreed += out.cost[0].rounds > 0;
-      }
-    }
-  EXPECT_GT(agreed, 200);
-}
-
 /// A ring of nodes around a few others, each of which is a hub: triangles with two and with three hubs.
 TEST(Agreement, OfHubsThatAreNeighbours) {
   for (const std::size_t inside : {2u, 3u, 7u})
@@ -809,51 +758,6 @@ TEST(Agreement, TellsEachRankTheNeighboursThatItHasNotBrought) {
       ASSERT_TRUE(is_serial(set, out)) << family;
       ASSERT_TRUE(has_outside(set, ranks_that_bring(set.nodes, c), out)) << family;
     }
-}
-
-/// A seeded adversary: sets of clusters, circles, hubs and hidden or coincident nodes, whose patches know
-/// little of each other.
-TEST(Agreement, OfNodesThatAnAdversaryHasPlaced) {
-  int of_directions = 0, with_boundary = 0, agreed = 0;
-  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
-    point_sets::Random random(seed);
-    const Point middle = random.direction();
-    const double wide = seed % 3 == 0 ? 2 : std::pow(10, -random.uniform(0, 4));
-    Nodes nodes;
-    for (std::size_t groups = 1 + random.below(5); groups > 0; --groups) {
-      const Point centre = beside(middle, wide, random), axis = random.direction();
-      const std::size_t each = 3 + random.below(60);
-      const double size = wide * std::pow(10, -random.uniform(0, 3));
-      const bool is_line = random.below(2) == 0;
-      for (std::size_t i = 0; i < each; ++i) {
-        const double t = size * random.uniform(-1, 1);
-        nodes.push_back(is_line ? point_sets::normalized(
-                                      {centre.x + t * axis.x, centre.y + t * axis.y, centre.z + t * axis.z})
-                                : beside(centre, size, random));
-      }
-    }
-    if (seed % 5 == 0)
-      for (std::size_t some = 1 + random.below(3); some > 0; --some) {
-        Point& p = nodes[random.below(nodes.size())];
-        const double length = 1 + random.uniform(-9e-7, 9e-7);
-        p = {p.x * length, p.y * length, p.z * length};
-      }
-    if (nodes.size() < 8) continue;
-    const Set set(nodes);
-    if (!set.coincident.empty()) continue;
-    of_directions += set.lengths == Lengths::directions;
-    with_boundary += std::count(set.rings.boundary.begin(), set.rings.boundary.end(), true) > 0;
-    for (const int ranks : {2, 5, 9}) {
-      const Configuration c{ranks, 1 + static_cast<int>(seed % 2), PartitionKind::bisection,
-                            Brings::every_other};
-      const Outcome out = run<std::int32_t>(set.nodes, c, true, 2);
-      ASSERT_TRUE(is_serial(set, out)) << seed << " " << name_of(c);
-      agreed += out.cost[0].rounds > 0;
-    }
-  }
-  EXPECT_GT(of_directions, 20);
-  EXPECT_GT(with_boundary, 100);
-  EXPECT_GT(agreed, 250);
 }
 
 TEST(Agreement, FindsNodesThatCoincide) {

@@ -88,44 +88,6 @@ TEST(Families, GiveFewerNodesWhereThereAreNoMore) {
   EXPECT_EQ(make("nest:150", 1000).size(), 1000u);
 }
 
-TEST(Families, HaveTheirShapes) {
-  for (const auto& p : make("single", 1000))
-    for (const double v : {p.x, p.y, p.z}) {
-      volatile const float single = static_cast<float>(v);
-      EXPECT_EQ(v, single);
-    }
-  for (const auto& p : make("cap:1e-6", 1000))
-    EXPECT_LT(std::hypot(p.x - make("cap:1e-12", 1)[0].x, p.y - make("cap:1e-12", 1)[0].y), 1.1e-6);
-  for (const auto& p : make("hemisphere", 1000)) EXPECT_GT(p.z, 0);
-  for (const auto& p : make("hemisphere-rim", 1000)) EXPECT_GE(p.z, 0);
-  for (const auto& p : make("small-circle:1", 1000))  // of the axis (0.3, -0.5, 0.8)
-    EXPECT_NEAR((0.3 * p.x - 0.5 * p.y + 0.8 * p.z) / std::hypot(0.3, 0.5, 0.8), std::cos(1.0), 1e-15);
-  for (const char* scales : {"nest:150", "rays:150"}) {
-    const auto nodes = make(scales, 1000);
-    EXPECT_TRUE(std::any_of(nodes.begin(), nodes.end(), [](const auto& p) {
-      return p.y != 0 && std::fabs(p.y) < 1e-148 && std::fabs(p.y) > 1e-152;
-    }));
-  }
-  const auto group = make("ulp-groups:8", 8);
-  for (const auto& p : group) EXPECT_LT(std::hypot(p.x - group[0].x, p.y - group[0].y), 1e-15);
-  for (const auto& p : make("rounded:3", 1000)) {
-    const double latitude = std::asin(p.z) * 57.29577951308232;
-    EXPECT_NEAR(latitude * 1000, std::round(latitude * 1000), 1e-6);
-  }
-  EXPECT_EQ(make("refined:20", 1000).size(), 256u * 4);
-  for (const auto& p : make("satellite:60", 1000))
-    EXPECT_LT(std::fabs(p.z), std::sin(60.001 / 57.29577951308232));
-  const auto lattice = make("lattice", 26);  // the first shell: axes, edges, corners of a cube
-  for (const auto& p : lattice)
-    for (const double v : {p.x, p.y, p.z}) EXPECT_TRUE(v == -1 || v == 0 || v == 1);
-  std::size_t north = 0;  // smooth density 1:1e4 along x
-  for (const auto& p : make("variable", 10000)) north += p.x > 0.9;
-  EXPECT_GT(north, 7000u);
-  const auto gaussian = make("reduced-gaussian", 4 * 2 * 11);  // 4 rows: roots of P4
-  EXPECT_NEAR(gaussian[0].z, 0.861136311594053, 1e-14);
-  EXPECT_NEAR(gaussian[20].z, 0.339981043584856, 1e-14);
-}
-
 TEST(Families, UnknownOnesAreRefusedByName) {
   try {
     make("no-such-family", 10);

@@ -529,23 +529,6 @@ TEST(ScvtStep, OfDensitiesOfAnySize) {
   EXPECT_EQ(step.mass[0], 7);
 }
 
-/// Issue 39: half the masses were zero or negative.
-TEST(ScvtStep, OfCopiesOfThePoles) {
-  std::vector<Point> points;
-  for (const double lat : {-1.5707963267948966, 0.0, 1.5707963267948966})
-    for (const double lon : {0.0, 2.0943951023931953, 4.1887902047863905})
-      points.push_back({std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)});
-  Step step(points);
-  ASSERT_EQ(step.run(nullptr), PSTRIPACK_OK) << step.message;
-  // Three copies of a pole share a triangle whose angles have the cosine -1/4.
-  const double pi = std::acos(-1), copy = std::acos(-0.25) - pi / 3;
-  for (std::size_t i = 0; i < 9; ++i)
-    EXPECT_NEAR(step.mass[i], i / 3 == 1 ? 4 * pi / 3 - 2 * copy : copy, 1e-6) << i;
-  double sum = 0;
-  for (const double m : step.mass) sum += m;
-  EXPECT_NEAR(sum, 4 * pi, 1e-6);
-}
-
 TEST(ScvtStep, ErrorsSayWhyAndWriteNothing) {
   const Step good(point_sets::make("random", 100, 6));
   const auto refuses = [](Step step, std::int32_t code, const std::string& why,

@@ -1,4 +1,5 @@
-// Centroidal Voronoi tessellations on ranks: any number of ranks gives the same bits.
+// First generators on ranks: any number of ranks gives the same bits. Whole runs on ranks: mpi/scvt_test.cpp
+// and pstripack.scvt_ranks.
 
 #include <gtest/gtest.h>
 
@@ -12,11 +13,9 @@
 
 #include "parallel/agreement.h"
 #include "point_sets.h"
-#include "scvt/errors.h"
 #include "scvt/evaluator.h"
 #include "scvt/first_generators.h"
 #include "scvt/spread.h"
-#include "scvt/tessellation.h"
 #include "support/thread_ranks.h"
 
 namespace {
@@ -125,27 +124,18 @@ TEST(Spread, RandomGeneratorsAreTheSameOnAnyNumberOfRanks) {
     length += std::sqrt(dot(step, step));
   }
   EXPECT_LT(length, 2.5 * std::sqrt(12.6 * kCount));
-  for (const int size : kRanks) {
-    Gathered gathered;
-    ThreadRanks::run(size, [&](Communicator& ranks) {
-      GatheringEvaluator evaluator(ranks, kBump);
-      const Spread spread = random_generators(evaluator, kCount, 5);
-      gathered.add(spread.numbers, spread.points);
-    });
-    EXPECT_LE(gathered.most_on_a_rank, kCount / static_cast<unsigned>(size) + 2);
-    EXPECT_EQ(gathered.points(), alone) << size;
-  }
-  // So few that some trials lie in a hemisphere, and the next ones must begin at the same candidate.
-  const std::vector<Point> few = random_generators(4, kConstant, 1);
-  for (const int size : kRanks) {
-    Gathered gathered;
-    ThreadRanks::run(size, [&](Communicator& ranks) {
-      GatheringEvaluator evaluator(ranks, kConstant);
-      const Spread spread = random_generators(evaluator, 4, 1);
-      gathered.add(spread.numbers, spread.points);
-    });
-    EXPECT_EQ(gathered.points(), few) << size;
-  }
+  // Also so few that some trials lie in a hemisphere, and the next ones must begin at the same candidate.
+  for (const std::size_t count : {kCount, std::size_t{4}})
+    for (const int size : kRanks) {
+      Gathered gathered;
+      ThreadRanks::run(size, [&](Communicator& ranks) {
+        GatheringEvaluator evaluator(ranks, kBump);
+        const Spread spread = random_generators(evaluator, count, 5);
+        gathered.add(spread.numbers, spread.points);
+      });
+      EXPECT_LE(gathered.most_on_a_rank, count / static_cast<unsigned>(size) + 2);
+      EXPECT_EQ(gathered.points(), count == kCount ? alone : random_generators(count, kBump, 5)) << size;
+    }
 }
 
 TEST(Spread, RefinedGeneratorsAreTheSameOnAnyNumberOfRanks) {
@@ -194,96 +184,6 @@ TEST(Spread, RowsGoWhereTheyAreSentAndSlicesAreEqual) {
       EXPECT_TRUE(std::signbit(slice.values[2 * i + 1]));
     }
   });
-}
-
-RunOptions few_evaluations() {
-  RunOptions options;
-  options.tolerance = 1e-9;
-  options.most_evaluations = 16;
-  return options;
-}
-
-/// Expects of the run on these numbers of ranks the same bits as alone, and what expect(found) does on each
-/// rank.
-template <class Sizes, class Expect>
-void expect_same_bits(const Tessellation& alone, const RunOptions& options, const Sizes& sizes,
-                      const Expect& expect) {
-  for (const int size : sizes) {
-    Gathered gathered;
-    ThreadRanks::run(size, [&](Communicator& ranks) {
-      GatheringEvaluator evaluator(ranks, kBump);
-      Tessellation found = first_generators(evaluator, alone.state.generators.size(), options);
-      iterate(evaluator, found, options);
-      EXPECT_EQ(found.result.progress.energy, alone.result.progress.energy);
-      expect(found);
-      gathered.add(found.numbers, found.state.generators);
-    });
-    EXPECT_EQ(gathered.points(), alone.state.generators) << size;
-  }
-}
-
-TEST(Run, HasTheSameBitsOnAnyNumberOfRanks) {
-  for (const bool levels : {true, false}) {
-    RunOptions options = few_evaluations();
-    options.levels = levels;
-    if (levels) options.most_evaluations = 6;  // on each
-    const Tessellation alone = run(200, kBump, options);
-    EXPECT_EQ(alone.result.end, End::evaluations);
-    expect_same_bits(alone, options, kRanks, [&](const Tessellation& found) {
-      EXPECT_EQ(found.evaluations + static_cast<double>(found.state.evaluations), alone.evaluations);
-    });
-  }
-}
-
-/// All slices joined, as a single process reads them from a file.
-Tessellation joined(const std::vector<Tessellation>& slices) {
-  Tessellation all = slices[0];
-  for (std::size_t r = 1; r < slices.size(); ++r) {
-    const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-    append(all.numbers, slices[r].numbers);
-    append(all.state.generators, slices[r].state.generators);
-    for (std::size_t k = 0; k < all.state.pairs.size(); ++k) {
-      append(all.state.pairs[k].step, slices[r].state.pairs[k].step);
-      append(all.state.pairs[k].change, slices[r].state.pairs[k].change);
-    }
-  }
-  return all;
-}
-
-TEST(Run, GoesOnWithTheSameBitsOnAnotherNumberOfRanks) {
-  RunOptions options = few_evaluations();
-  options.levels = false;
-  const Tessellation alone = run(200, kBump, options);
-  for (const std::int64_t steps : {2, 6, 13})  // Lloyd's; some pairs; all pairs
-    for (const int size : {1, 2, 8}) {
-      std::vector<Tessellation> slices(static_cast<std::size_t>(size));
-      ThreadRanks::run(size, [&](Communicator& ranks) {
-        GatheringEvaluator evaluator(ranks, kBump);
-        Tessellation t = first_generators(evaluator, 200, options);
-        Options until = options;
-        until.progress = [&](const Progress&) { return t.state.steps < steps; };
-        iterate(evaluator, t, until);
-        EXPECT_EQ(t.result.end, End::stopped);
-        slices[static_cast<std::size_t>(ranks.rank())] = slice_of(ranks, t);
-      });
-      const Tessellation checkpoint = joined(slices);
-      for (std::size_t i = 0; i < 200; ++i)
-        ASSERT_EQ(checkpoint.numbers[i], static_cast<std::int64_t>(i) + 1);
-      Gathered gathered;
-      ThreadRanks::run(size == 2 ? 3 : 2, [&](Communicator& ranks) {
-        Tessellation t = checkpoint;
-        if (ranks.rank() > 0) {  // all on one rank
-          t.numbers.clear();
-          t.state.generators.clear();
-          for (State::Pair& pair : t.state.pairs) pair = {};
-        }
-        GatheringEvaluator evaluator(ranks, kBump);
-        iterate(evaluator, t, options);
-        EXPECT_EQ(t.state.evaluations, alone.state.evaluations);
-        gathered.add(t.numbers, t.state.generators);
-      });
-      EXPECT_EQ(gathered.points(), alone.state.generators) << size << " ranks, " << steps << " steps";
-    }
 }
 
 }  // namespace

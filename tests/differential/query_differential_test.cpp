@@ -215,24 +215,6 @@ TEST(Differential, NEARND) {
   });
 }
 
-TEST(Differential, NEARND_is_nearest) {
-  const Result result = compare_meshes([](const Mesh& mesh, Random& random) -> std::string {
-    if (mesh.nodes.name.compare(0, 7, "random ") != 0) return "";
-    for (int i = 0; i < 20; ++i) {
-      const Vec p = random.direction();
-      const int start = 1 + random.below(mesh.n);
-      double al;
-      const int found = nearnd_(p.data(), &start, &mesh.n, mesh.x(), mesh.y(), mesh.z(), mesh.list(),
-                                mesh.lptr(), mesh.lend(), &al);
-      double nearest = -2;
-      for (int k = 1; k <= mesh.n; ++k) nearest = std::max(nearest, dot(mesh.node(k), p));
-      if (!(dot(mesh.node(found), p) >= nearest - 1e-15)) return "another node is nearer";
-    }
-    return "";
-  });
-  expect_equal(result);
-}
-
 TEST(Differential, GETNP) {
   const Result result = compare_meshes([](const Mesh& mesh, Random& random) -> std::string {
     std::vector<int> lend = mesh.lists.lend;
@@ -256,26 +238,6 @@ TEST(Differential, GETNP) {
     std::shuffle(npts.begin(), npts.end() - 1, std::mt19937(1));
     for (int l = 2; l <= std::min(mesh.n, 20); ++l)  // any other nodes
       if (differs(l, npts)) return "shuffled, L = " + std::to_string(l);
-    return "";
-  });
-  expect_equal(result);
-}
-
-TEST(Differential, GETNP_is_nearest) {
-  const Result result = compare_meshes([](const Mesh& mesh, Random&) -> std::string {
-    if (mesh.nodes.name.compare(0, 7, "random ") != 0) return "";
-    std::vector<int> npts(mesh.nodes.x.size());
-    npts[0] = 1;
-    std::vector<double> distances;
-    for (int k = 2; k <= mesh.n; ++k) distances.push_back(-dot(mesh.node(k), mesh.node(1)));
-    std::sort(distances.begin(), distances.end());
-    for (int l = 2; l <= mesh.n; ++l) {
-      double df;
-      int ier;
-      getnp_(mesh.x(), mesh.y(), mesh.z(), mesh.list(), mesh.lptr(), const_cast<int*>(mesh.lend()), &l,
-             npts.data(), &df, &ier);
-      if (ier != 0 || df != distances[static_cast<std::size_t>(l - 2)]) return "L = " + std::to_string(l);
-    }
     return "";
   });
   expect_equal(result);
