@@ -36,12 +36,10 @@ Nodes with(Nodes nodes, std::size_t l, std::size_t m) {
   return nodes;
 }
 
-TEST(Duplicate, LateIsReported) { expect_duplicate(with(make("random", 120), 50, 99), 50, 99); }
-
-TEST(Duplicate, EarlyIsReported) {
-  expect_duplicate(with(make("random", 120), 2, 5), 2, 5);
-  expect_duplicate(with(make("random", 120), 1, 4), 1, 4);
-  expect_duplicate(with(make("random", 120), 3, 4), 3, 4);
+TEST(Duplicate, IsReported) {
+  for (const auto& [l, m] : {std::pair{2, 5}, {1, 4}, {3, 4}, {50, 99}})
+    expect_duplicate(with(make("random", 120), static_cast<std::size_t>(l), static_cast<std::size_t>(m)), l,
+                     static_cast<std::size_t>(m));
 }
 
 TEST(Duplicate, OfABoundaryNodeIsReported) {
@@ -70,10 +68,7 @@ TEST(Duplicate, TheSmallestOfManyIsReported) {
   nodes = make("random", 1000);
   for (std::size_t k = 10; k < 1000; ++k) nodes[k] = nodes[9];
   expect_duplicate(nodes, 10, 11);
-}
-
-TEST(Duplicate, MIsTheSmallestNotL) {
-  Nodes nodes = with(make("random", 100), 3, 90);
+  nodes = with(make("random", 100), 3, 90);
   nodes[69] = nodes[59];  // 60 == 70 comes before 3 == 90
   expect_duplicate(nodes, 60, 70);
 }
@@ -144,32 +139,16 @@ Nodes naive_grid(int rows, int columns, bool poles, bool seam_twice) {
   return nodes;
 }
 
-TEST(NearDuplicates, PolesRepeatedAreCorrect) {
-  Nodes nodes = naive_grid(18, 36, true, false);
-  EXPECT_NE(nodes[0], nodes[1]);
-  EXPECT_TRUE(is_as_promised(nodes));
-  point_sets::shuffle(nodes, 1);
-  EXPECT_TRUE(is_as_promised(nodes));
-}
-
-TEST(NearDuplicates, LongitudesZeroAnd360AreCorrect) {
-  for (const bool poles : {false, true}) {
-    Nodes nodes = naive_grid(18, 36, poles, true);
-    EXPECT_TRUE(is_as_promised(nodes));
-    point_sets::shuffle(nodes, 2);
-    EXPECT_TRUE(is_as_promised(nodes));
-  }
-}
-
-TEST(NearDuplicates, OneUlpApartAreCorrect) {
-  Nodes nodes = make("random", 1000);
-  for (std::size_t k = 0; k < 500; ++k) {
-    nodes[k + 500] = nodes[k];
-    double& v = k % 3 == 0 ? nodes[k + 500].x : k % 3 == 1 ? nodes[k + 500].y : nodes[k + 500].z;
-    v = std::nextafter(v, k % 2 == 0 ? 2 : -2);
-  }
-  ASSERT_EQ(expected_ier(nodes), 0);
-  EXPECT_TRUE(is_correct(nodes, trmesh(nodes)));
+TEST(NearDuplicates, PolesAndLongitudesRepeatedAreCorrect) {
+  for (const auto& [rows, columns] :
+       {std::pair{18, 36}, {3, 3}, {2, 4}, {36, 5}, {11, 9}, {2, 1000}, {180, 360}})
+    for (const bool poles : {false, true})
+      for (const bool seam_twice : {false, true}) {
+        Nodes nodes = naive_grid(rows, columns, poles, seam_twice);
+        EXPECT_TRUE(is_as_promised(nodes)) << rows << " x " << columns;
+        point_sets::shuffle(nodes, 1);
+        EXPECT_TRUE(is_as_promised(nodes)) << rows << " x " << columns << ", shuffled";
+      }
 }
 
 TEST(NearDuplicates, AllNeighboursWithinTwoUlpsAreCorrect) {  // 125 nodes in a cube of five ulps

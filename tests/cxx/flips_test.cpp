@@ -154,20 +154,6 @@ TEST(Flips, FollowTiesThatAppearAndVanish) {
   EXPECT_GT(all.refused, 0);
 }
 
-TEST(Flips, FollowLatticesThatRotate) {
-  Outcome all;
-  for (const char* family : {"latlon", "icosahedral", "cubed-sphere", "fibonacci"}) {
-    Nodes nodes = make(family, 300);
-    SCOPED_TRACE(family);
-    const Outcome outcome = follow(nodes, cases(20), [&](int step) {
-      rotate(nodes, {0.6, 0, 0.8}, step % 3 == 0 ? 1e-15 : 0.3);
-    });
-    all.followed += outcome.followed, all.flips += outcome.flips;
-  }
-  EXPECT_GT(all.followed, cases(30));
-  EXPECT_GT(all.flips, 0u);
-}
-
 /// Stars much smaller than the sphere are first tested in floating point. Each square of this lattice is a
 /// tie except for the rounding of its nodes, which changes with every step.
 TEST(Flips, FollowSmallLattices) {
@@ -230,19 +216,6 @@ TEST(Flips, FollowManyNodes) {
   Outcome outcome = follow(nodes, cases(4), [&](int) { move_all(nodes, 0.02 * spacing(n), random); });
   EXPECT_EQ(outcome.refused, 0);
   EXPECT_GT(outcome.flips, 10u);
-}
-
-TEST(Flips, RefuseANodeThatJumps) {
-  Random random(5);
-  int refused = 0;
-  for (int run = 0; run < cases(40); ++run) {
-    Nodes nodes = make("random", 200, static_cast<std::uint64_t>(run));
-    refused += follow(nodes, 1, [&](int) {
-                 Point& p = nodes[random.below(200)];
-                 p = {-p.x, -p.y, -p.z};
-               }).refused;
-  }
-  EXPECT_EQ(refused, cases(40));
 }
 
 /// Pairs of nodes that approach each other: first in the right order, then coincident, then one hidden by the

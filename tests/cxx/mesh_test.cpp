@@ -85,19 +85,6 @@ TEST(Fingerprint, ChangesWithAnyChange) {
   EXPECT_EQ(prints.size(), changes + 1);
 }
 
-TEST(Fingerprint, HasNoCollisionAmongAMillionTriangles) {
-  std::vector<std::uint64_t> prints;
-  for (std::int32_t a = 0; a < 100; ++a)
-    for (std::int32_t b = a + 1; b < 150; ++b)
-      for (std::int32_t c = a + 1; c < 150; ++c) {
-        const Triangle t{a, b, c};
-        if (b != c) prints.push_back(pstripack::fingerprint(&t, 1));
-      }
-  const std::size_t count = prints.size();
-  std::sort(prints.begin(), prints.end());
-  EXPECT_EQ(static_cast<std::size_t>(std::unique(prints.begin(), prints.end()) - prints.begin()), count);
-}
-
 // ---- The plane of a face: see mesh/delaunay.cpp ----
 
 struct Planes {

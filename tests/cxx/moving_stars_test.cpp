@@ -22,7 +22,7 @@
 #include "parallel/triangulate.h"
 #include "point_sets.h"
 #include "support/cases.h"
-#include "support/lists.h"
+#include "support/hull_rings.h"
 #include "support/moves.h"
 #include "support/room_in_cache.h"
 #include "support/thread_ranks.h"
@@ -38,13 +38,7 @@ std::optional<Rings> rings_of_one_hull(const Nodes& nodes) {
   Workspace workspace(workspace_bytes(nodes.size()));
   const Hull hull = delaunay(nodes.data(), nodes.size(), workspace);
   if (!hull.coincident.empty()) return {};
-  Faces faces;
-  for (std::size_t t = 0; t < hull.face_count; ++t) {
-    const auto& v = hull.faces[t].vertex;
-    const auto node = [&](int i) { return static_cast<std::int32_t>(hull.order[v[i]]); };
-    if (hull.front(t)) faces.push_back({node(0), node(1), node(2)});
-  }
-  return rings_of(nodes.size(), faces);
+  return rings_of_hull(hull, nodes.size());
 }
 
 /// Numbers that do not fit 32 bits, or nodes from 1.
@@ -265,25 +259,6 @@ TEST(MovingStars, FollowOrRefuseLargeMoves) {
       EXPECT_EQ(warm, 0);
     }
   }
-}
-
-TEST(MovingStars, FollowLloydStepsOfEveryFamily) {
-  int warm = 0;
-  for (const std::string& family : point_sets::families()) {
-    SCOPED_TRACE(family);
-    std::vector<Nodes> sets{make(family, 300, 1)};
-    for (std::uint64_t seed = 1; left(sets[0][0], sets[0][1], sets[0][2]) == 0; ++seed)
-      point_sets::shuffle(sets[0], seed);
-    while (static_cast<int>(sets.size()) < cases(6)) {
-      const auto rings = rings_of_one_hull(sets.back());
-      if (!rings) break;
-      const Lists lists = canonical_lists(*rings);
-      sets.push_back(sets.back());
-      lloyd_step(sets.back(), lists.list, lists.lend);
-    }
-    warm += follow(sets, 3).warm;
-  }
-  EXPECT_GT(warm, 20);
 }
 
 /// Nodes of a lattice move by a rounding and come back: nearly all arcs are ties then.
@@ -510,26 +485,6 @@ TEST(Relocation, IsOfFewNodesAndTheSame) {
   EXPECT_FALSE(is_found({{1, 2, 3, 4, 5, 6, 7}, {8, 9, 10}, {11, 12, 13, 14, 15, 16}},
                         {{1, 2, 3, 4, 5, 6, 11}, {8, 9, 11}, {12, 13, 14, 15, 16, 7}}))
       << "one comes twice, and one nowhere";
-}
-
-/// The sample of stars fits nodes that move a little, and no others.
-TEST(MovingStars, AreKnownByASample) {
-  Random random(8);
-  Nodes nodes = make("random", 2000, 1);
-  SingleProcess process;
-  ParallelOptions options;
-  options.with_neighbours = true;
-  const LocalNodes local{nodes.data(), nodes.size()};
-  const Point corners[3] = {nodes[0], nodes[1], nodes[2]};
-  const auto stars = triangulate<std::int32_t>(local, check_nodes(local.points, local.count), corners,
-                                               {1, 2, 3}, process, options);
-  const SampleOfStars sample = sample_of(stars, ranges_of(local, process), 0);
-  EXPECT_TRUE(sample.fits(nodes.data()));
-  Nodes moved = nodes;
-  move_all(moved, 0.01 * spacing(2000), random);
-  EXPECT_TRUE(sample.fits(moved.data()));
-  move_all(moved, 2 * spacing(2000), random);
-  EXPECT_FALSE(sample.fits(moved.data()));
 }
 
 }  // namespace

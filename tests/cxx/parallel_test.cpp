@@ -9,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <mutex>
 #include <new>
 #include <numeric>
 #include <string>
@@ -27,7 +26,6 @@
 #include "parallel/triangulate.h"
 #include "point_sets.h"
 #include "support/cases.h"
-#include "support/columns.h"
 #include "support/judge.h"
 #include "support/lists.h"
 #include "support/serial_rings.h"
@@ -63,7 +61,6 @@ std::vector<std::size_t> ranks_that_bring(const Nodes& nodes, const Configuratio
   return rank_of_node;
 }
 
-template <class Int>
 Outcome run(const Nodes& nodes, const Configuration& c, bool with_neighbours = false,
             std::size_t closing_nodes = 256) {
   ParallelOptions options;
@@ -72,7 +69,7 @@ Outcome run(const Nodes& nodes, const Configuration& c, bool with_neighbours = f
   options.with_neighbours = with_neighbours;
   options.closing_nodes = closing_nodes;
   std::vector<std::unique_ptr<Homes>> homes(static_cast<std::size_t>(c.ranks));
-  return run<Int>(nodes, ranks_that_bring(nodes, c), options, homes);
+  return run(nodes, ranks_that_bring(nodes, c), options, homes);
 }
 
 // ---- all families, all configurations ---------------------------------------------------------------
@@ -94,7 +91,7 @@ TEST_P(Configurations, GiveTheSerialRings) {
     return all;
   }();
   for (const auto& [name, set] : sets)
-    EXPECT_TRUE(is_serial(set, run<std::int32_t>(set.nodes, GetParam()))) << name.first << " " << name.second;
+    EXPECT_TRUE(is_serial(set, run(set.nodes, GetParam()))) << name.first << " " << name.second;
 }
 
 std::vector<Configuration> configurations() {
@@ -121,7 +118,7 @@ TEST_P(Families, OfTwentyThousandNodesGiveTheSerialRings) {
   for (const Configuration c : {Configuration{1, 9, PartitionKind::bisection, Brings::slices},
                                 Configuration{4, 2, PartitionKind::stripes, Brings::every_other},
                                 Configuration{6, 1, PartitionKind::stripes, Brings::slices}})
-    EXPECT_TRUE(is_serial(set, run<std::int32_t>(set.nodes, c))) << name_of(c);
+    EXPECT_TRUE(is_serial(set, run(set.nodes, c))) << name_of(c);
 }
 INSTANTIATE_TEST_SUITE_P(All, Families, ::testing::ValuesIn(kFamilies), [](const auto& info) {
   std::string name = info.param;
@@ -138,7 +135,7 @@ TEST(Distributions, GiveTheSerialRings) {
     ASSERT_TRUE(set.coincident.empty()) << d.name;
     for (const Configuration c : {Configuration{1, 5, PartitionKind::bisection, Brings::slices},
                                   Configuration{4, 1, PartitionKind::stripes, Brings::every_other}})
-      EXPECT_TRUE(is_serial(set, run<std::int32_t>(set.nodes, c))) << d.name << ", " << name_of(c);
+      EXPECT_TRUE(is_serial(set, run(set.nodes, c))) << d.name << ", " << name_of(c);
   }
 }
 
@@ -151,54 +148,7 @@ TEST(Distributions, OfMirrorImagesGiveTheSerialRings) {
       for (const Configuration c : {Configuration{4, 1, PartitionKind::bisection, Brings::home},
                                     Configuration{16, 1, PartitionKind::bisection, Brings::home},
                                     Configuration{1, 3, PartitionKind::stripes, Brings::slices}})
-        EXPECT_TRUE(is_serial(set, run<std::int32_t>(set.nodes, c))) << family << ", " << name_of(c);
-    }
-}
-
-// ---- nodes in arrays --------------------------------------------------------------------------------
-
-/// From the node `first` on.
-template <class Real>
-NodeArrays from(const Columns<Real>& c, std::size_t first) {
-  return {c.x.data() + first, c.y.data() + first, c.z.data() + first};
-}
-
-/// Each rank has a slice, and can read the nodes of all.
-template <class Real>
-::testing::AssertionResult are_serial_by_number(const Columns<Real>& columns, int size, int patches) {
-  const std::size_t n = columns.x.size();
-  const NodeArrays all = from(columns, 0);
-  Nodes nodes(n);
-  all.points(0, n, nodes.data());
-  const Set set(nodes);
-  Outcome out;
-  out.ring.resize(n);
-  out.stars.resize(static_cast<std::size_t>(size));
-  out.lengths.resize(static_cast<std::size_t>(size));
-  std::mutex mutex;
-  ThreadRanks::run(size, [&](Communicator& ranks) {
-    const auto r = static_cast<std::size_t>(ranks.rank()), p = static_cast<std::size_t>(size);
-    const std::size_t first = slice_begin(n, r, p);
-    const LocalNodes local{from(columns, first), slice_begin(n, r + 1, p) - first, nullptr,
-                           static_cast<std::int64_t>(first) + 1, &all};
-    ParallelOptions options;
-    options.patches = patches;
-    const Point corners[3] = {set.nodes[0], set.nodes[1], set.nodes[2]};
-    const auto stars =
-        triangulate<std::int32_t>(local, check_of_all(local, ranks), corners, {1, 2, 3}, ranks, options);
-    const std::lock_guard lock(mutex);
-    keep(
-        stars, local, r, [](GlobalNumber number) { return number; }, out);
-  });
-  return is_serial(set, out);
-}
-
-TEST(NodesThatAllCanRead, GiveTheSerialRings) {
-  for (const char* family : {"random", "latlon", "variable:1e6", "hemisphere"})
-    for (const auto& [ranks, patches] : {std::pair{2, 1}, {3, 2}, {16, 1}}) {
-      const Nodes nodes = point_sets::make(family, 5000, 9);
-      EXPECT_TRUE(are_serial_by_number(Columns<double>(nodes), ranks, patches)) << family << " " << ranks;
-      EXPECT_TRUE(are_serial_by_number(Columns<float>(nodes), ranks, patches)) << family << " " << ranks;
+        EXPECT_TRUE(is_serial(set, run(set.nodes, c))) << family << ", " << name_of(c);
     }
 }
 
@@ -216,8 +166,7 @@ TEST(Nasty, AVoidAsLargeAsAContinent) {
     if (p.x < 0.6) nodes.push_back(p);
   const Set set(nodes);
   for (const int ranks : {2, 5, 8})
-    EXPECT_TRUE(is_serial(
-        set, run<std::int32_t>(set.nodes, {ranks, 2, PartitionKind::bisection, Brings::every_other})));
+    EXPECT_TRUE(is_serial(set, run(set.nodes, {ranks, 2, PartitionKind::bisection, Brings::every_other})));
 }
 
 TEST(Nasty, AllNodesInOnePatch) {
@@ -233,7 +182,7 @@ TEST(Nasty, AllNodesInOnePatch) {
   std::vector<std::unique_ptr<Homes>> homes(kRanks);
   std::vector<std::size_t> rank_of_node;
   for (std::size_t i = 0; i < set.nodes.size(); ++i) rank_of_node.push_back(i * kRanks / set.nodes.size());
-  EXPECT_TRUE(is_serial(set, run<std::int32_t>(set.nodes, rank_of_node, options, homes)));
+  EXPECT_TRUE(is_serial(set, run(set.nodes, rank_of_node, options, homes)));
 }
 
 TEST(Nasty, NodesOnBordersOfPatches) {
@@ -245,7 +194,7 @@ TEST(Nasty, NodesOnBordersOfPatches) {
   const Set set(nodes);
   EXPECT_EQ(set.lengths, Lengths::directions);
   for (const PartitionKind kind : {PartitionKind::bisection, PartitionKind::stripes})
-    EXPECT_TRUE(is_serial(set, run<std::int32_t>(set.nodes, {5, 2, kind, Brings::slices})));
+    EXPECT_TRUE(is_serial(set, run(set.nodes, {5, 2, kind, Brings::slices})));
 }
 
 TEST(Nasty, LengthsThatHideANodeInOnePatchMakeAllUseDirections) {
@@ -255,8 +204,7 @@ TEST(Nasty, LengthsThatHideANodeInOnePatchMakeAllUseDirections) {
   p = {p.x * shorter, p.y * shorter, p.z * shorter};
   const Set set(nodes);
   EXPECT_EQ(set.lengths, Lengths::directions);
-  EXPECT_TRUE(
-      is_serial(set, run<std::int32_t>(set.nodes, {4, 2, PartitionKind::bisection, Brings::every_other})));
+  EXPECT_TRUE(is_serial(set, run(set.nodes, {4, 2, PartitionKind::bisection, Brings::every_other})));
 }
 
 /// One node a little below the unit sphere. Nodes beside it hide it, or do not, for every order of insertion.
@@ -289,7 +237,7 @@ TEST(Nasty, DirectionsAreUsedExactlyWhereLengthsHideANode) {
         << seed;
     for (const Configuration c : {Configuration{1, 3, PartitionKind::bisection, Brings::slices},
                                   Configuration{4, 1, PartitionKind::stripes, Brings::every_other}})
-      ASSERT_TRUE(is_serial(set, run<std::int32_t>(set.nodes, c))) << seed << " " << name_of(c);
+      ASSERT_TRUE(is_serial(set, run(set.nodes, c))) << seed << " " << name_of(c);
   }
   EXPECT_GT(hidden, 50);
   EXPECT_GT(shown, 50);
@@ -318,8 +266,7 @@ TEST(Nasty, LengthsThatHideANodeInALaterRoundMakeAllUseDirections) {
     const Set set(nodes);
     hidden += set.lengths == Lengths::directions;
     for (const int ranks : {2, 4})
-      ASSERT_TRUE(is_serial(
-          set, run<std::int32_t>(set.nodes, {ranks, 1, PartitionKind::bisection, Brings::every_other})))
+      ASSERT_TRUE(is_serial(set, run(set.nodes, {ranks, 1, PartitionKind::bisection, Brings::every_other})))
           << seed << ", " << ranks << " ranks";
   }
   EXPECT_GT(hidden, 300);
@@ -360,7 +307,7 @@ TEST(Coincident, SameDirectionOnBothSidesOfABorder) {
     const std::size_t n = nodes.size();
     for (std::size_t i = 0; i < n; ++i) nodes.push_back({3 * nodes[i].x, 3 * nodes[i].y, 3 * nodes[i].z});
     const Set set(nodes);
-    const Outcome out = run<std::int32_t>(nodes, {8, 4, PartitionKind::bisection, Brings::slices});
+    const Outcome out = run(nodes, {8, 4, PartitionKind::bisection, Brings::slices});
     for (const auto& stars : out.stars) {
       const auto expected = first_coincidence(set.coincident), found = first_coincidence(stars.coincident);
       EXPECT_EQ(found.l, expected.l);
@@ -401,7 +348,7 @@ class KeptPatches : public ::testing::Test {
   bool keeps(const Nodes& nodes, const std::vector<std::size_t>& rank_of_node) {
     std::vector<std::shared_ptr<const Partition>> before;
     for (const auto& h : homes_) before.push_back(h != nullptr ? h->partition() : nullptr);
-    EXPECT_TRUE(is_serial(Set(nodes), run<std::int32_t>(nodes, rank_of_node, options_, homes_)));
+    EXPECT_TRUE(is_serial(Set(nodes), run(nodes, rank_of_node, options_, homes_)));
     std::size_t kept = 0;
     for (std::size_t r = 0; r < kRanks; ++r)
       kept += homes_[r] != nullptr && homes_[r]->partition() == before[r];
@@ -441,14 +388,6 @@ TEST_F(KeptPatches, WhereNodesAreAtHomeAndWhereTheyMoveALittle) {
   EXPECT_TRUE(keeps(shaken, at_home(shaken)));
 }
 
-TEST_F(KeptPatches, NotWhereOneHasMoreThanItsShare) {
-  Nodes more = nodes_;
-  const std::size_t rank = at_home({nodes_[0]})[0];
-  for (const Point& p : moved(nodes_, 1e-2))
-    if (at_home({p})[0] == rank) more.push_back(p);
-  EXPECT_FALSE(keeps(more, at_home(more)));
-}
-
 TEST_F(KeptPatches, NotWhereNodesAreElsewhere) { EXPECT_FALSE(keeps(moved(nodes_, 1), at_home(nodes_))); }
 
 TEST_F(KeptPatches, NotForOtherPredicatesKindsOrNumbersOfPatches) {
@@ -480,21 +419,6 @@ TEST(Homes, OfDirectionsAreForLengthsAboutOneToo) {
   EXPECT_TRUE(are_for(Lengths::directions, Lengths::directions));
   EXPECT_TRUE(are_for(Lengths::directions, Lengths::as_given));
   EXPECT_FALSE(are_for(Lengths::as_given, Lengths::directions));
-}
-
-/// Patches made for other nodes: thin or thick halos cost time only.
-TEST_F(KeptPatches, HoldForNodesThatAreDenseElsewhere) {
-  const Nodes nodes = point_sets::make("random", 5 * nodes_.size(), 9);
-  const std::vector<std::size_t> rank = at_home(nodes);
-  std::vector<std::ptrdiff_t> count;
-  for (std::size_t r = 0; r < kRanks; ++r) count.push_back(std::count(rank.begin(), rank.end(), r));
-  const std::ptrdiff_t each = *std::min_element(count.begin(), count.end());
-  ASSERT_GT(each, 100);
-  Nodes even;
-  std::vector<std::ptrdiff_t> taken(kRanks);
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    if (taken[rank[i]]++ < each) even.push_back(nodes[i]);
-  EXPECT_TRUE(keeps(even, at_home(even)));
 }
 
 /// Found by walks around others' nodes where these are few, else in one pass over all faces.
@@ -565,34 +489,11 @@ TEST(SequencesOfCalls, GiveTheSerialRings) {
         rank_of_node.push_back(homes[0] != nullptr && change < 5
                                    ? static_cast<std::size_t>(homes[0]->rank(nodes[i]))
                                    : i * ranks / nodes.size());
-      const Outcome out = run<std::int32_t>(nodes, rank_of_node, options, homes);
+      const Outcome out = run(nodes, rank_of_node, options, homes);
       ASSERT_TRUE(is_serial(set, out)) << history;
       ASSERT_TRUE(has_outside(set, rank_of_node, out)) << history;
     }
   }
-}
-
-TEST(Numbers, BeyondThirtyTwoBits) {
-  const Set set(point_sets::make("hemisphere", 500, 8));
-  const std::int64_t far = std::int64_t{1} << 40;
-  std::vector<std::int64_t> numbers(set.nodes.size());
-  std::iota(numbers.begin(), numbers.end(), far + 1);
-  SingleProcess process;
-  const LocalNodes local{set.nodes.data(), set.nodes.size(), numbers.data()};
-  ParallelOptions options;
-  options.patches = 3;
-  const Point corners[3] = {set.nodes[0], set.nodes[1], set.nodes[2]};
-  const auto stars = triangulate<std::int64_t>(local, check_nodes(local.points, local.count), corners,
-                                               {far + 1, far + 2, far + 3}, process, options);
-  Outcome out;
-  out.stars.resize(1);
-  out.lengths = {stars.homes->lengths()};
-  for (std::size_t i = 0; i < local.count; ++i) {
-    auto& ring =
-        out.ring.emplace_back(stars.of_node[i].begin, stars.of_node[i].begin + stars.of_node[i].count);
-    for (std::int64_t& b : ring) b += b < 0 ? far : -far;
-  }
-  EXPECT_TRUE(is_serial(set, out));
 }
 
 /// Then one rank triangulates all. Homes stay those of the many patches.
@@ -609,7 +510,7 @@ TEST(GivingUp, OfRanksLeavesAllToOne) {
     std::vector<std::unique_ptr<Homes>> homes(3);
     std::vector<std::size_t> rank_of_node;
     for (std::size_t i = 0; i < set.nodes.size(); ++i) rank_of_node.push_back(i % 3);
-    const Outcome out = run<std::int32_t>(set.nodes, rank_of_node, options, homes);
+    const Outcome out = run(set.nodes, rank_of_node, options, homes);
     EXPECT_TRUE(is_serial(set, out));
     EXPECT_EQ(out.cost[2].in_one_patch, 1) << is_given;
     EXPECT_EQ(homes[0]->partition()->patches(), 3);
@@ -622,7 +523,7 @@ TEST(Ranks, MayHaveNoPatch) {
   for (std::size_t i = 0; i < set.nodes.size(); ++i) rank_of_node.push_back(i % 3);
   for (const auto& patches : {std::vector{2, 2, 0}, std::vector{0, 2, 2}, std::vector{2, 0, 2}}) {
     std::vector<std::unique_ptr<Homes>> homes(3);
-    const Outcome out = run<std::int32_t>(set.nodes, rank_of_node, {}, homes, patches);
+    const Outcome out = run(set.nodes, rank_of_node, {}, homes, patches);
     EXPECT_TRUE(is_serial(set, out));
     EXPECT_EQ(out.cost[0].in_one_patch, 0);
   }
@@ -640,7 +541,7 @@ TEST(ClosingNodes, AreThoseThatWereNotDelivered) {
       2, Partition::Rule{[](const Point& p) { return p.x < 0 ? 0 : 1; },
                          [&](PatchNumber, const Point&) { return ++asked > set.nodes.size(); }});
   std::vector<std::unique_ptr<Homes>> homes(1);
-  const Outcome out = run<std::int32_t>(set.nodes, rank_of_node, options, homes);
+  const Outcome out = run(set.nodes, rank_of_node, options, homes);
   EXPECT_TRUE(is_serial(set, out));
   EXPECT_EQ(out.cost[0].in_one_patch, 0);
 }
@@ -741,7 +642,7 @@ TEST(Agreement, OfHubsThatAreNeighbours) {
       const Set set(nodes);
       for (const int ranks : {4, 8}) {
         const Outcome out =
-            run<std::int32_t>(set.nodes, {ranks, 1, PartitionKind::bisection, Brings::every_other}, true, 2);
+            run(set.nodes, {ranks, 1, PartitionKind::bisection, Brings::every_other}, true, 2);
         EXPECT_TRUE(is_serial(set, out)) << inside << " " << ranks;
         EXPECT_GT(out.cost[0].rounds, 0);
       }
@@ -754,7 +655,7 @@ TEST(Agreement, TellsEachRankTheNeighboursThatItHasNotBrought) {
     for (const Brings brings : {Brings::every_other, Brings::home, Brings::rank_0}) {
       const Set set(point_sets::make(family, 3000, 6));
       const Configuration c{5, 2, PartitionKind::bisection, brings};
-      const Outcome out = run<std::int32_t>(set.nodes, c, true, 2);
+      const Outcome out = run(set.nodes, c, true, 2);
       ASSERT_TRUE(is_serial(set, out)) << family;
       ASSERT_TRUE(has_outside(set, ranks_that_bring(set.nodes, c), out)) << family;
     }
@@ -766,8 +667,8 @@ TEST(Agreement, FindsNodesThatCoincide) {
       Nodes nodes = point_sets::make(family, 3000, 4);
       nodes[1500] = nodes[20];
       nodes[700] = nodes[20];
-      const Outcome out = run<std::int32_t>(nodes, {4, 2, PartitionKind::bisection, Brings::every_other},
-                                            true, closing_nodes);
+      const Outcome out =
+          run(nodes, {4, 2, PartitionKind::bisection, Brings::every_other}, true, closing_nodes);
       for (const auto& stars : out.stars) {
         EXPECT_EQ(first_coincidence(stars.coincident).l, 21);
         EXPECT_EQ(first_coincidence(stars.coincident).m, 701);

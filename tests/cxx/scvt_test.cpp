@@ -590,10 +590,6 @@ TEST(Metric, IsSymmetricAndPositive) {
       }
 }
 
-TEST(Metric, MakesRunsShort) {  // in Lloyd's metric 83 evaluations
-  EXPECT_LT(run(front_generators(4000, kConstant), kConstant, {}).evaluations, 50);
-}
-
 // ---- safeguards ----
 
 /// An evaluator that falsifies the results of evaluations.

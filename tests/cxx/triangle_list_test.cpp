@@ -308,23 +308,6 @@ TEST(CellAreas, AddUpToTheSphere) {
   }
 }
 
-/// Neighbours of one node in a wrong order: every node still lists every neighbour.
-TEST(TriangleList, RefusesRingsThatContradictEachOther) {
-  const std::vector<Point> set = point_sets::make("random", 200);
-  for (std::int32_t node = 1; node <= 200; ++node) {
-    Plain lists = plain_lists(set, Slots::canonical);
-    const auto last = static_cast<std::size_t>(lists.lend[static_cast<std::size_t>(node - 1)] - 1);
-    if (last - (node > 1 ? static_cast<std::size_t>(lists.lend[static_cast<std::size_t>(node - 2)]) : 0) < 3)
-      continue;
-    std::swap(lists.list[last], lists.list[last - 1]);
-    Arrays<std::int32_t> arrays(lists);
-    std::vector<std::int32_t> ltri(9 * 2 * 200);
-    std::int32_t nt = -1;
-    EXPECT_EQ(triangle_list(arrays.view(), 9, nt, ltri.data()), TriangleListStatus::broken_lists) << node;
-    EXPECT_EQ(nt, 0);
-  }
-}
-
 namespace {
 
 using Rings = std::vector<std::vector<std::int32_t>>;  ///< as in LIST: negative where no triangle follows

@@ -306,45 +306,39 @@ Result compare_insertions(const Add& add) {
   });
 }
 
+/// INTADD, BDYADD or COVSPH, wherever `is_case(i1, i2, i3)` holds.
+template <class IsCase, class Call>
+void expect_equal_insertions(const IsCase& is_case, const Call& call) {
+  Codes calls;
+  expect_equal(compare_insertions([&](Mesh mesh, int k, int i1, int i2, int i3) {
+    if (!is_case(i1, i2, i3)) return std::string();
+    calls.note(1);
+    return compare(mesh, [&](const Routines& r, Mesh& m) { call(r, m, k, i1, i2, i3); });
+  }));
+  calls.expect({1});
+}
+
 }  // namespace
 
 TEST(Differential, INTADD) {
-  Codes calls;
-  expect_equal(compare_insertions([&](Mesh mesh, int k, int i1, int i2, int i3) {
-                 if (i3 == 0) return std::string();
-                 calls.note(1);
-                 return compare(mesh, [&](const Routines& r, Mesh& m) {
-                   r.intadd(&k, &i1, &i2, &i3, m.list(), m.lptr(), m.lend(), &m.lists.lnew);
-                 });
-               }),
-               0);
-  calls.expect({1});
+  expect_equal_insertions([](int, int, int i3) { return i3 != 0; },
+                          [](const Routines& r, Mesh& m, int k, int i1, int i2, int i3) {
+                            r.intadd(&k, &i1, &i2, &i3, m.list(), m.lptr(), m.lend(), &m.lists.lnew);
+                          });
 }
 
 TEST(Differential, BDYADD) {
-  Codes calls;
-  expect_equal(compare_insertions([&](Mesh mesh, int k, int i1, int i2, int i3) {
-                 if (i3 != 0 || i1 == i2) return std::string();
-                 calls.note(1);
-                 return compare(mesh, [&](const Routines& r, Mesh& m) {
-                   r.bdyadd(&k, &i1, &i2, m.list(), m.lptr(), m.lend(), &m.lists.lnew);
-                 });
-               }),
-               0);
-  calls.expect({1});
+  expect_equal_insertions([](int i1, int i2, int i3) { return i3 == 0 && i1 != i2; },
+                          [](const Routines& r, Mesh& m, int k, int i1, int i2, int) {
+                            r.bdyadd(&k, &i1, &i2, m.list(), m.lptr(), m.lend(), &m.lists.lnew);
+                          });
 }
 
 TEST(Differential, COVSPH) {
-  Codes calls;
-  expect_equal(compare_insertions([&](Mesh mesh, int k, int i1, int i2, int i3) {
-                 if (i3 != 0 || i1 != i2) return std::string();
-                 calls.note(1);
-                 return compare(mesh, [&](const Routines& r, Mesh& m) {
-                   r.covsph(&k, &i1, m.list(), m.lptr(), m.lend(), &m.lists.lnew);
-                 });
-               }),
-               0);
-  calls.expect({1});
+  expect_equal_insertions([](int i1, int i2, int i3) { return i3 == 0 && i1 == i2; },
+                          [](const Routines& r, Mesh& m, int k, int i1, int, int) {
+                            r.covsph(&k, &i1, m.list(), m.lptr(), m.lend(), &m.lists.lnew);
+                          });
 }
 
 TEST(Differential, INSERT) {

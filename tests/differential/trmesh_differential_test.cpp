@@ -17,6 +17,7 @@
 #include "differential/routines.h"
 #include "point_sets.h"
 #include "stripack/original/original_order.h"
+#include "support/lists.h"
 #include "trmesh/trmesh.h"
 
 using namespace differential;
@@ -45,18 +46,18 @@ NodeSet node_set(const std::string& name, const std::vector<Point>& points) {
 
 struct Triangulation {
   int ier;
-  Lists lists;
+  differential::Lists lists;
 };
 
 Triangulation by_original(const NodeSet& nodes) {
   int ier = 0;
-  Lists lists = triangulated_by_original(nodes, ier);
+  differential::Lists lists = triangulated_by_original(nodes, ier);
   return {ier, std::move(lists)};
 }
 
 Triangulation by_us(const NodeSet& nodes) {
   const int n = nodes.n();
-  Triangulation t{0, Lists(n + 60)};
+  Triangulation t{0, differential::Lists(n + 60)};
   std::vector<int> near(nodes.x.size()), next = near;
   std::vector<double> dist(nodes.x.size());
   trmesh_(&n, nodes.x.data(), nodes.y.data(), nodes.z.data(), t.lists.list.data(), t.lists.lptr.data(),
@@ -67,7 +68,7 @@ Triangulation by_us(const NodeSet& nodes) {
 /// The number of nodes before the one that coincides with node IER.
 std::size_t nodes_in(const Triangulation& t, std::size_t n) {
   std::size_t count = 0;
-  while (count < n && t.lists.lend[count] != Lists::mark) ++count;
+  while (count < n && t.lists.lend[count] != differential::Lists::mark) ++count;
   return count;
 }
 
@@ -105,75 +106,28 @@ bool is_right(const NodeSet& nodes, const Triangulation& original) {
   return original.ier == ier && nodes_in(original, nodes.x.size()) == count && judged(nodes, original);
 }
 
-/// True if these lists are a triangulation: they are closed, every arc is listed at both ends and has at most
-/// one triangle on each side, all nodes are connected, there is at most one boundary, marked as in STRIPACK,
-/// and Euler's number is right.
-bool is_a_triangulation(const Lists& lists, std::size_t n) {
-  const auto at = [](const std::vector<int>& v, int i) { return v.at(static_cast<std::size_t>(i) - 1); };
-  std::set<std::pair<int, int>> sides, used;  // a->b with a triangle on its left, and all arcs
-  std::set<int> slots;
-  std::vector<int> boundary(n + 1, 0);  // the next boundary node counterclockwise
-  std::size_t boundary_nodes = 0;
-  for (int k = 1; k <= static_cast<int>(n); ++k) {
-    const int last = at(lists.lend, k);
-    for (int slot = last;;) {
-      if (slot < 1 || slot >= lists.lnew || !slots.insert(slot).second) return false;
-      const int b = at(lists.list, slot), next = at(lists.lptr, slot);
-      if (next < 1 || next >= lists.lnew) return false;
-      const int c = std::abs(at(lists.list, next));
-      if (b == 0 || std::abs(b) > static_cast<int>(n) || c < 1 || c > static_cast<int>(n)) return false;
-      if (!used.insert({k, std::abs(b)}).second || (b < 0 && slot != last)) return false;
-      if (b > 0) sides.insert({k, b});  // of the triangle k, b, c
-      if (b < 0) {
-        boundary[static_cast<std::size_t>(k)] = c;
-        ++boundary_nodes;
-      }
-      slot = next;
-      if (slot == last) break;
-    }
-  }
-  if (slots.size() + 1 != static_cast<std::size_t>(lists.lnew)) return false;
-  std::size_t triangles = 0;  // counted once per corner
-  for (int k = 1; k <= static_cast<int>(n); ++k) {
-    const int last = at(lists.lend, k);
-    int slot = last;
-    do {
-      const int b = at(lists.list, slot), c = std::abs(at(lists.list, at(lists.lptr, slot)));
-      if (used.count({std::abs(b), k}) == 0) return false;
-      if (b > 0) {
-        ++triangles;
-        if (sides.count({b, c}) == 0 || sides.count({c, k}) == 0) return false;
-      }
-      slot = at(lists.lptr, slot);
-    } while (slot != last);
-  }
-  std::size_t on_the_way = 0;
-  if (boundary_nodes > 0) {
-    const auto start = static_cast<int>(
-        std::find_if(boundary.begin(), boundary.end(), [](int b) { return b != 0; }) - boundary.begin());
-    int k = start;
-    do {
-      ++on_the_way;
-      k = boundary[static_cast<std::size_t>(k)];
-    } while (k != start && k != 0 && on_the_way <= n);
-    if (k != start) return false;
-  }
-  std::vector<bool> reached(n + 1, false);
-  std::vector<int> waiting{1};
-  reached[1] = true;
-  std::size_t count = 1;
-  while (!waiting.empty()) {
-    const int k = waiting.back();
+/// True if these lists are a triangulation: the triangles that they list have the same lists, all nodes are
+/// connected, and Euler's number is that of the sphere or of a part of it with one boundary.
+bool is_a_triangulation(const differential::Lists& lists, std::size_t n) {
+  ::Lists used{lists.list,
+               lists.lptr,
+               {lists.lend.begin(), lists.lend.begin() + static_cast<std::ptrdiff_t>(n)},
+               lists.lnew};
+  const auto rings = rings_of(used);
+  if (!rings) return false;
+  const Faces faces = faces_of(*rings);
+  if (!(rings_of(n, faces) == rings)) return false;
+  std::size_t arcs = 0;  // counted once per end
+  for (const auto& ring : rings->neighbours) arcs += ring.size();
+  std::set<std::int32_t> reached{0};
+  for (std::vector<std::int32_t> waiting{0}; !waiting.empty();) {
+    const auto node = static_cast<std::size_t>(waiting.back());
     waiting.pop_back();
-    for (auto arc = used.lower_bound({k, 0}); arc != used.end() && arc->first == k; ++arc)
-      if (const auto b = static_cast<std::size_t>(arc->second); !reached[b]) {
-        reached[b] = true;
-        ++count;
-        waiting.push_back(arc->second);
-      }
+    for (const std::int32_t other : rings->neighbours[node])
+      if (reached.insert(other).second) waiting.push_back(other);
   }
-  return count == n && on_the_way == boundary_nodes && triangles % 3 == 0 &&
-         n - used.size() / 2 + triangles / 3 == (boundary_nodes == 0 ? 2 : 1);
+  const bool has_boundary = std::count(rings->boundary.begin(), rings->boundary.end(), 1) > 0;
+  return reached.size() == n && n - arcs / 2 + faces.size() == (has_boundary ? 1 : 2);
 }
 
 /// Nodes for which the original does not return, or returns IER = -2.
@@ -329,7 +283,7 @@ TEST(Differential, TRMESH_reference) {
     const int ier = reference.run();
     const Triangulation original = by_original(nodes);
     if (ier != original.ier) return "IER";
-    if (ier == -2 && original.lists.lnew == Lists::mark) return "";
+    if (ier == -2 && original.lists.lnew == differential::Lists::mark) return "";
     const auto slots = static_cast<std::size_t>(original.lists.lnew) - 1;
     if (reference.lnew != original.lists.lnew) return "LNEW";
     if (!std::equal(reference.list.begin() + 1, reference.list.begin() + 1 + slots,
@@ -440,7 +394,7 @@ TEST(Bitwise, TRMESH_r4) {
     ReferenceTrmesh<float> reference(x, y, z, {4, true});
     const int ier = reference.run();
     if (ier < 0) continue;
-    Triangulation ours{0, Lists(nodes.n())};
+    Triangulation ours{0, differential::Lists(nodes.n())};
     seeds_of_thread() = {};
     const TrmeshResult result =
         trmesh({nodes.n(),

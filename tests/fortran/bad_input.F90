@@ -87,8 +87,6 @@ contains
     one = [1, 0, 0]
     none = [nan, 0._rk, 0._rk]
 
-    call refuses_nodes(1, [3], 1, "GETNP: L = 1")
-    call refuses_nodes(-5, [3], 1, "GETNP: L < 0")
     call refuses_nodes(3, [3, 0], -10, "GETNP: node 0")
     call refuses_nodes(4, [3, 5, 3], -10, "GETNP: a node twice")
     call refuses_nodes(n + 1, [(l, l=1, n)], -15, "GETNP: L > N")
@@ -102,11 +100,6 @@ contains
       call expect(all(i >= 0) .and. all(i <= n), "TRFIND among nodes of which one is infinite")
     end do
 
-    call expect(.not. inside(one, n, nodes(:, 1), nodes(:, 2), nodes(:, 3), 2, [1, 2], ier) .and. ier == 1, "INSIDE: NV = 2")
-    call expect(.not. inside(one, 2, nodes(:, 1), nodes(:, 2), nodes(:, 3), 3, [1, 2, 3], ier) .and. ier == 1, &
-                "INSIDE: NV > LV")
-    call expect(.not. inside(one, n, nodes(:, 1), nodes(:, 2), nodes(:, 3), 3, [1, 2, n + 1], ier) .and. ier == 2, &
-                "INSIDE: a vertex above LV")
     call expect(.not. inside(0*one, n, nodes(:, 1), nodes(:, 2), nodes(:, 3), 3, [1, 4, 8], ier) .and. ier == 4, &
                 "INSIDE: the zero vector")
     call expect(.not. inside(none, n, nodes(:, 1), nodes(:, 2), nodes(:, 3), 3, [1, 4, 8], ier) .and. ier == -5, &
@@ -115,20 +108,12 @@ contains
                 "INSIDE: an infinite vertex")
 
     c = 5
-    call intrsc(one, one, [0._rk, 1._rk, 0._rk], c, ier)
-    call expect(ier == 1 .and. all(c == 5), "INTRSC: equal ends")
-    call intrsc(one, -one, one, c, ier)
-    call expect(ier == 2 .and. all(c == 5), "INTRSC: opposite ends")
-    call intrsc(one, none, one, c, ier)
-    call expect(ier == -5 .and. all(c == 5), "INTRSC: NaN")
     call intrsc(none, one, one, c, ier)
     call expect(ier == -5 .and. all(c == 5), "INTRSC: NaN first")
     call intrsc(one, [0._rk, 1._rk, 0._rk], none, c, ier)
     call expect(ier == -5 .and. all(c == 5), "INTRSC: NaN in the normal")
     call circum(one, none, [0._rk, 1._rk, 0._rk], c, ier)
     call expect(ier == -5 .and. all(c == 5), "CIRCUM: NaN")
-    call circum(one, one, [0._rk, 1._rk, 0._rk], c, ier)
-    call expect(ier == 1 .and. all(c == 5), "CIRCUM: two corners coincide")
 
     lptr_before = lptr
     lnew_before = lnew

@@ -1,4 +1,4 @@
-! Centroidal tessellations by the module pstripack: the bits of the C API.
+! Centroidal tessellations by the module pstripack: every option, result and error passes through the interface.
 module procedures
   use, intrinsic :: iso_c_binding
   use pstripack, only: pstripack_scvt_progress
@@ -12,15 +12,6 @@ contains
     real(c_double), intent(in) :: x, y, z
     bump = 1 + 80*exp(10*(0.6_c_double*y + 0.8_c_double*z - 1)) + 0*x
   end function
-
-  subroutine bump_for_c(n, xyz, values, user) bind(c)
-    integer(c_int32_t), value :: n
-    real(c_double), intent(in) :: xyz(3, n)
-    real(c_double), intent(inout) :: values(n)
-    type(c_ptr), value :: user
-    values = bump(xyz(1, :), xyz(2, :), xyz(3, :))
-    if (c_associated(user)) error stop "no user data"
-  end subroutine
 
   ! A procedure with state, as in many old codes: it must be called by one thread only.
   subroutine bump_for_fortran(n, xyz, values)
@@ -68,75 +59,29 @@ program scvt_module
   use expectations
   use random_points
   implicit none
-  ! The C functions as in pstripack.h.
-  type, bind(c) :: density_of_c
-    type(c_funptr) :: at
-    type(c_ptr) :: user = c_null_ptr
-    integer(c_int32_t) :: any_thread = 0
-  end type
-  type, bind(c) :: options_of_c
-    integer(c_int64_t) :: bytes
-    integer(c_int32_t) :: start = 0, method = 0
-    real(c_double) :: tolerance = 0
-    integer(c_int64_t) :: most_evaluations = 0, seed = 0
-    type(c_funptr) :: progress = c_null_funptr
-    type(c_ptr) :: user = c_null_ptr
-    integer(c_int32_t) :: widths = 0, well_centred = 0
-  end type
-  interface
-    function c_scvt(n, x, y, z, density, options, result, message, length) result(ier) bind(c, name="pstripack_scvt")
-      import
-      integer(c_int32_t), value :: n, length
-      real(c_double), intent(inout) :: x(*), y(*), z(*)
-      type(density_of_c), intent(in), optional :: density
-      type(options_of_c), intent(in), optional :: options
-      type(pstripack_scvt_result), intent(inout) :: result
-      type(c_ptr), value :: message
-      integer(c_int32_t) :: ier
-    end function
-    function c_step(n, x, y, z, list, lptr, lend, density, xc, yc, zc, mass, energy, message, length) result(ier) &
-        bind(c, name="pstripack_scvt_step")
-      import
-      integer(c_int32_t), value :: n, length
-      real(c_double), intent(in) :: x(*), y(*), z(*)
-      integer(c_int32_t), intent(in) :: list(*), lptr(*), lend(*)
-      type(density_of_c), intent(in), optional :: density
-      real(c_double), intent(inout) :: xc(*), yc(*), zc(*), mass(*), energy
-      type(c_ptr), value :: message
-      integer(c_int32_t) :: ier
-    end function
-  end interface
-
   integer, parameter :: n = 500
-  real(c_double) :: x(n), y(n), z(n), x_of_c(n), y_of_c(n), z_of_c(n), p(3), energy, energy_of_c
-  real(c_double), dimension(n) :: xc, yc, zc, mass, xc_of_c, yc_of_c, zc_of_c, mass_of_c
+  real(c_double) :: x(n), y(n), z(n), start(n, 3), before(n, 3), p(3), energy, energy_before
+  real(c_double), dimension(n) :: xc, yc, zc, mass, xc_before, mass_before
   integer(c_int32_t) :: list(6*n), lptr(6*n), lend(n), lnew, ier
-  type(density_of_c) :: density
-  type(options_of_c) :: c_options
   type(pstripack_scvt_options) :: options
   type(pstripack_scvt_result) :: found, expected
   character(len=120) :: message
   integer :: k
 
-  density%at = c_funloc(bump_for_c)
-  c_options%bytes = c_sizeof(c_options)
-
   ! Without options.
-  ier = c_scvt(12, x_of_c, y_of_c, z_of_c, result=expected, message=c_null_ptr, length=0)
-  call expect(ier == 0, "C, defaults")
   call pstripack_scvt(x(:12), y(:12), z(:12), found, ier, message=message)
   call expect(ier == pstripack_ok .and. message == "", "defaults")
-  call expect(all(x(:12) == x_of_c(:12)) .and. same(found, expected), "defaults: same bits")
   call expect(found%reason == pstripack_scvt_converged .and. found%gradient <= 1e-5_c_double, "defaults: converged")
+  call expect(found%generators == 12, "defaults: generators")
 
   ! A density, by one thread and by several.
-  c_options%tolerance = 1e-2_c_double
   options%tolerance = 1e-2_c_double
-  ier = c_scvt(n, x_of_c, y_of_c, z_of_c, density, c_options, expected, c_null_ptr, 0)
-  call expect(ier == 0, "C, density")
-  call pstripack_scvt(x, y, z, found, ier, bump_for_fortran, options)
-  call expect(ier == 0 .and. same_generators() .and. same(found, expected), "density")
+  call pstripack_scvt(x, y, z, expected, ier, bump_for_fortran, options)
+  call expect(ier == 0 .and. expected%reason == pstripack_scvt_converged, "density")
+  call expect(expected%gradient > 1e-4_c_double .and. expected%gradient <= 1e-2_c_double, "density: the tolerance")
   call expect(calls > 20, "the density is called in batches")
+  call expect(count(0.6_c_double*y + 0.8_c_double*z > 0.9_c_double) > 62, "many generators are in the bump")
+  before = reshape([x, y, z], [n, 3])
   options%density_on_threads = .true.
   x = 0
   call pstripack_scvt(x, y, z, found, ier, bump_on_threads, options)
@@ -145,34 +90,37 @@ program scvt_module
   ! From generators, by Lloyd's method, random ones; a progress procedure.
   do k = 1, n
     p = direction()
-    x(k) = 2*p(1)
-    y(k) = 2*p(2)
-    z(k) = 2*p(3)
+    start(k, :) = 2*p
   end do
-  x_of_c = x
-  y_of_c = y
-  z_of_c = z
-  c_options = options_of_c(c_sizeof(c_options), pstripack_scvt_given, pstripack_scvt_lloyd, 0, 7_c_int64_t, 3_c_int64_t)
-  options = pstripack_scvt_options(start=pstripack_scvt_given, method=pstripack_scvt_lloyd, most_evaluations=7, seed=3)
-  ier = c_scvt(n, x_of_c, y_of_c, z_of_c, density, c_options, expected, c_null_ptr, 0)
-  steps = 0
+  call set_generators(start)
+  options = pstripack_scvt_options(start=pstripack_scvt_given, most_evaluations=7)
+  call pstripack_scvt(x, y, z, expected, ier, bump_for_fortran, options)
+  call set_generators(start)
+  options%method = pstripack_scvt_lloyd
   call pstripack_scvt(x, y, z, found, ier, bump_for_fortran, options, progress)
-  call expect(ier == 0 .and. same_generators() .and. same(found, expected), "from generators")
+  call expect(ier == 0 .and. found%energy > expected%energy, "from generators: Lloyd's method is slower")
+  call expect(maxval(abs(reshape([x, y, z], [n, 3]) - start/2)) < 0.6, "from generators: each stays near its place")
   call expect(found%reason == pstripack_scvt_evaluations .and. found%evaluations == 7, "from generators: 7 evaluations")
   call expect(steps == 6 .and. last%generators == n .and. last%evaluations == 7, "progress")
   call expect(last%energy == found%energy .and. last%gradient == found%gradient, "progress: the result's")
   options%start = pstripack_scvt_random
+  options%seed = 3
   steps = -2
   call pstripack_scvt(x, y, z, found, ier, options=options, progress=progress)
   call expect(ier == 0 .and. found%reason == pstripack_scvt_stopped .and. last%evaluations == 3, "stopped")
+  before = reshape([x, y, z], [n, 3])
+  do k = 3, 4
+    options%seed = k
+    steps = -2
+    call pstripack_scvt(x, y, z, found, ier, options=options, progress=progress)
+    call expect(ier == 0 .and. (same_generators() .eqv. k == 3), "the seed")
+  end do
 
   ! Widths in place of a density.
-  c_options = options_of_c(c_sizeof(c_options), tolerance=1e-2_c_double, widths=1, well_centred=1)
-  ier = c_scvt(n, x_of_c, y_of_c, z_of_c, density, c_options, expected, c_null_ptr, 0)
-  call expect(ier == 0, "C, widths")
   options = pstripack_scvt_options(tolerance=1e-2_c_double)
   call pstripack_scvt_widths(x, y, z, found, ier, bump_for_fortran, options, well_centred=.true., message=message)
-  call expect(ier == 0 .and. message == "" .and. same_generators() .and. same(found, expected), "widths")
+  call expect(ier == 0 .and. message == "" .and. found%reason == pstripack_scvt_not_well_centred, "widths")
+  call expect(count(0.6_c_double*y + 0.8_c_double*z > 0.9_c_double) < 12, "few generators are where cells are wide")
   options%widths = .false.
   options%well_centred = .false.
   call pstripack_scvt_widths(x, y, z, found, ier, negative, options, message=message)
@@ -184,24 +132,30 @@ program scvt_module
   call pstripack_scvt_cells(two, -1._c_double, energy, ier, message)
   call expect(ier == pstripack_bad_option .and. index(message, "radius") > 0, "cells: a bad radius")
 
-  ! One step.
+  ! One step, with the density of one thread and with that of several, is one of Lloyd's method.
   call pstripack_trmesh(x, y, z, list, lptr, lend, lnew, ier)
   call expect(ier == 0, "trmesh")
-  ier = c_step(n, x, y, z, list, lptr, lend, density, xc_of_c, yc_of_c, zc_of_c, mass_of_c, energy_of_c, c_null_ptr, 0)
-  call expect(ier == 0, "C, step")
   call pstripack_scvt_step(x, y, z, list, lptr, lend, xc, yc, zc, mass, energy, ier, bump_for_fortran, message=message)
-  call expect(ier == 0 .and. message == "" .and. same_step(), "step")
-  xc = 0
+  call expect(ier == 0 .and. message == "" .and. all(abs(xc**2 + yc**2 + zc**2 - 1) < 1e-14), "step")
+  energy_before = energy
+  xc_before = xc
+  mass_before = mass
   call pstripack_scvt_step(x, y, z, list, lptr, lend, xc, yc, zc, mass, energy, ier, bump_on_threads, .true.)
-  call expect(ier == 0 .and. same_step(), "step, density on threads")
+  call expect(ier == 0 .and. all(xc == xc_before .and. mass == mass_before) .and. energy == energy_before, &
+              "step, density on threads")
+  start = reshape([x, y, z], [n, 3])
+  options = pstripack_scvt_options(start=pstripack_scvt_given, method=pstripack_scvt_lloyd, most_evaluations=2)
+  call pstripack_scvt(x, y, z, found, ier, bump_for_fortran, options)
+  call expect(ier == 0 .and. all(x == xc .and. y == yc .and. z == zc), "step: that of Lloyd's method")
+  call set_generators(start)
   call pstripack_scvt_step(x, y, z, list, lptr, lend, xc, yc, zc, mass, energy, ier)
   call expect(ier == 0, "step, density 1")
   call expect(abs(sum(mass) - 16*atan(1._c_double)) < 1e-5_c_double, "the masses of density 1 are the sphere's area")
 
   ! Errors write nothing but the message.
-  x_of_c = x
+  before = start
   expected = found
-  options%start = 9
+  options = pstripack_scvt_options(start=9)
   call pstripack_scvt(x, y, z, found, ier, options=options, message=message)
   call expect(ier == pstripack_bad_option .and. index(message, "start") > 0, "a bad option")
   options%start = pstripack_scvt_by_number
@@ -211,9 +165,9 @@ program scvt_module
   call expect(ier == pstripack_too_few_nodes .and. index(message, "at least 4") > 0, "three generators")
   call pstripack_scvt(x, y(2:), z, found, ier, message=message)
   call expect(ier == pstripack_bad_size .and. index(message, "sizes") > 0, "y too short")
-  call expect(all(x == x_of_c) .and. same(found, expected), "errors write nothing")
-  xc_of_c = xc
-  energy_of_c = energy
+  call expect(same_generators() .and. same(found, expected), "errors write nothing")
+  xc_before = xc
+  energy_before = energy
   call pstripack_scvt_step(x, y, z, list, lptr, lend, xc, yc, zc, mass, energy, ier, negative, message=message)
   call expect(ier == pstripack_bad_density .and. index(message, "lon ") > 0, "step: a bad density")
   call pstripack_scvt_step(x, y, z, list, lptr, lend, xc(2:), yc, zc, mass, energy, ier, message=message)
@@ -221,7 +175,7 @@ program scvt_module
   list(1) = 0
   call pstripack_scvt_step(x, y, z, list, lptr, lend, xc, yc, zc, mass, energy, ier, message=message)
   call expect(ier == pstripack_bad_lists .and. message /= "", "step: broken lists")
-  call expect(all(xc == xc_of_c) .and. energy == energy_of_c, "step: errors write nothing")
+  call expect(all(xc == xc_before) .and. energy == energy_before, "step: errors write nothing")
 
 contains
 
@@ -232,11 +186,13 @@ contains
   end function
 
   logical function same_generators()
-    same_generators = all(x == x_of_c .and. y == y_of_c .and. z == z_of_c)
+    same_generators = all(reshape([x, y, z], [n, 3]) == before)
   end function
 
-  logical function same_step()
-    same_step = all(xc == xc_of_c .and. yc == yc_of_c .and. zc == zc_of_c .and. mass == mass_of_c) .and. &
-                energy == energy_of_c
-  end function
+  subroutine set_generators(xyz)
+    real(c_double), intent(in) :: xyz(n, 3)
+    x = xyz(:, 1)
+    y = xyz(:, 2)
+    z = xyz(:, 3)
+  end subroutine
 end program

@@ -125,25 +125,20 @@ TEST(CommMode, IsReplacedByAnotherCommunicator) {
 TEST(CommMode, RanksThatDisagreeAreToldSoAndNothingIsWritten) {
   if (size_of() < 2) GTEST_SKIP() << "nobody to disagree with";
   const CommMode mode;
-  const std::string last = std::to_string(size_of() - 1);
-  /// Of rank 0, which alone writes.
-  const auto expect_line = [](const std::string& written, const std::string& line) {
-    EXPECT_EQ(written, rank_of() == 0 ? "pstripack: trmesh: " + line + " (IER = -7)\n" : "");
+  const auto expect_refused = [](const Nodes& nodes, const std::string& line) {
+    expect_lines_of_rank_0("trmesh: " + line + " (IER = -7)", [&] {
+      const Mesh m = trmesh(nodes);
+      EXPECT_EQ(m.ier, PSTRIPACK_RANKS_DISAGREE);
+      EXPECT_TRUE(is_untouched(m));
+    });
   };
+  const int last = size_of() - 1;
   Nodes nodes = point_sets::make("random", 100);
-  if (rank_of() == size_of() - 1) nodes[50].x = -nodes[50].x;
-  testing::internal::CaptureStderr();
-  const Mesh data = trmesh(nodes);
-  expect_line(testing::internal::GetCapturedStderr(),
-              "the coordinates of 100 nodes on rank " + last + " are not those on rank 0");
-  EXPECT_EQ(data.ier, PSTRIPACK_RANKS_DISAGREE);
-  EXPECT_TRUE(is_untouched(data));
-  nodes = point_sets::make("random", rank_of() == 0 ? 99 : 100);
-  testing::internal::CaptureStderr();
-  const Mesh count = trmesh(nodes);
-  expect_line(testing::internal::GetCapturedStderr(), "N is 99 on rank 0 and 100 on rank 1");
-  EXPECT_EQ(count.ier, PSTRIPACK_RANKS_DISAGREE);
-  EXPECT_TRUE(is_untouched(count));
+  if (rank_of() == last) nodes[50].x = -nodes[50].x;
+  expect_refused(nodes,
+                 "the coordinates of 100 nodes on rank " + std::to_string(last) + " are not those on rank 0");
+  expect_refused(point_sets::make("random", rank_of() == 0 ? 99 : 100),
+                 "N is 99 on rank 0 and 100 on rank 1");
 }
 
 TEST(CommMode, KnowsTheOtherCodes) {
@@ -198,12 +193,8 @@ TEST(CommMode, ForkedChildrenAndOtherThreadsGoOnAlone) {
 /// Run under PSTRIPACK_ORDER=original on rank 0 alone.
 TEST(CommMode, RefusesRanksThatDisagreeInTheOrder) {
   if (std::getenv("ORDER_OF_RANK_0") == nullptr) GTEST_SKIP() << "all ranks have the same";
-  testing::internal::CaptureStderr();
-  EXPECT_EQ(pstripack_set_comm(MPI_COMM_WORLD), size_of() > 1 ? PSTRIPACK_RANKS_DISAGREE : 0);
-  EXPECT_EQ(testing::internal::GetCapturedStderr(),
-            size_of() > 1 && rank_of() == 0
-                ? "pstripack: set_comm: PSTRIPACK_ORDER on rank 1 is not that on rank 0 (IER = -7)\n"
-                : "");
+  expect_lines_of_rank_0("set_comm: PSTRIPACK_ORDER on rank 1 is not that on rank 0 (IER = -7)",
+                         [] { EXPECT_EQ(pstripack_set_comm(MPI_COMM_WORLD), PSTRIPACK_RANKS_DISAGREE); });
   pstripack_set_comm(MPI_COMM_NULL);
 }
 

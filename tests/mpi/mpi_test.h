@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <mpi.h>
 
+#include <string>
+
 inline int rank_of(MPI_Comm comm = MPI_COMM_WORLD) {
   int rank;
   MPI_Comm_rank(comm, &rank);
@@ -14,6 +16,16 @@ inline int size_of(MPI_Comm comm = MPI_COMM_WORLD) {
   int size;
   MPI_Comm_size(comm, &size);
   return size;
+}
+
+/// Expects that call() writes these lines to stderr, each behind "pstripack: ", on rank 0, and nothing
+/// elsewhere.
+template <class Call>
+void expect_lines_of_rank_0(const std::string& lines, const Call& call) {
+  ::testing::internal::CaptureStderr();
+  call();
+  const std::string written = ::testing::internal::GetCapturedStderr();
+  EXPECT_EQ(written, rank_of() == 0 && lines != "" ? "pstripack: " + lines + "\n" : "");
 }
 
 /// Runs the tests; `at_end` is called on every rank before MPI_Finalize. Fails if any rank fails.

@@ -6,8 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "lists.h"
-#include "mesh/delaunay.h"
+#include "hull_rings.h"
 #include "mesh/flips.h"
 
 /// The canonical lists of a new triangulation. Empty unless a moving mesh may have these nodes: they surround
@@ -19,13 +18,7 @@ inline std::optional<Lists> made_anew(const Nodes& nodes) {
   const Hull hull = delaunay(nodes.data(), nodes.size(), workspace);
   if (!ones || !hull.surrounds_centre || hull.lengths != Lengths::as_given || !hull.coincident.empty())
     return {};
-  Faces faces;
-  for (std::size_t t = 0; t < hull.face_count; ++t) {
-    const auto& v = hull.faces[t].vertex;
-    const auto number = [&](std::uint32_t w) { return static_cast<std::int32_t>(hull.order[w]); };
-    faces.push_back({number(v[0]), number(v[1]), number(v[2])});
-  }
-  return canonical_lists(*rings_of(nodes.size(), faces));
+  return canonical_lists(rings_of_hull(hull, nodes.size()));
 }
 
 /// A mesh, and its lists, which are updated from the changes.

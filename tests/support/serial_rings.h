@@ -12,12 +12,11 @@
 #include <vector>
 
 #include "base/workspace.h"
-#include "mesh/delaunay.h"
 #include "parallel/coincidence.h"
 #include "parallel/node_ranges.h"
 #include "parallel/triangulate.h"
 #include "point_sets.h"
-#include "support/lists.h"
+#include "support/hull_rings.h"
 #include "support/thread_ranks.h"
 
 namespace {
@@ -35,14 +34,7 @@ struct Set {
     for (const auto& [a, b] : hull.coincident)
       coincident.emplace_back(GlobalNumber{a + 1}, GlobalNumber{b + 1});
     if (!coincident.empty()) return;
-    Faces faces;
-    for (std::size_t t = 0; t < hull.face_count; ++t)
-      if (hull.front(t)) {
-        const auto& v = hull.faces[t].vertex;
-        const auto node = [&](int i) { return static_cast<std::int32_t>(hull.order[v[i]]); };
-        faces.push_back({node(0), node(1), node(2)});
-      }
-    rings = *rings_of(nodes.size(), faces);
+    rings = rings_of_hull(hull, nodes.size());
   }
   Nodes nodes;
   Rings rings;
@@ -83,7 +75,7 @@ void keep(const Stars<Int>& stars, const LocalNodes& nodes, std::size_t rank, co
 
 /// homes: of the ranks in the last call, then in this one. With neighbours, nodes are counted through all
 /// ranks; in the outcome they always have their numbers in `nodes`. patches: of each rank, if not the same.
-template <class Int>
+template <class Int = std::int32_t>
 Outcome run(const Nodes& nodes, const std::vector<std::size_t>& rank_of_node,
             const ParallelOptions& all_options, std::vector<std::unique_ptr<Homes>>& homes,
             const std::vector<int>& patches = {}) {
