@@ -14,6 +14,7 @@
 #include <sstream>
 #include <string>
 #include <thread>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -173,25 +174,14 @@ void expect_calls(const std::vector<Block>& all, std::size_t processes, std::siz
   }
 }
 
-TEST(Check, KeepsTheBlocksOfThreadsWhole) {
-  const Folder folder;
-  EXPECT_EQ(run_this_program(folder, kToFile, "threads random 500 16").code, 0);
-  expect_calls(blocks(folder), 1, 16);
-}
-
-TEST(Check, KeepsTheBlocksOfProcessesWhole) {
-  const Folder folder;
-  EXPECT_EQ(run_this_program(folder, kToFile, "processes random 3000 4").code, 0);
-  expect_calls(blocks(folder), 4, 5);
-}
-
-TEST(Check, OfAForkedChildIsItsOwn) {
-  const Folder folder;
-  EXPECT_EQ(run_this_program(folder, kToFile, "fork random 500 1").code, 0);
-  const auto all = blocks(folder);
-  ASSERT_EQ(all.size(), 8u);
-  expect_calls(all, 2, 2);
-  EXPECT_NE(all[0].header.process_id, all[2].header.process_id);
+TEST(Check, KeepsTheBlocksOfThreadsAndProcessesWhole) {
+  for (const auto& [arguments, processes, calls_of_each] : {std::tuple{"threads random 500 16", 1u, 16u},
+                                                            {"processes random 3000 4", 4u, 5u},
+                                                            {"fork random 500 1", 2u, 2u}}) {
+    const Folder folder;
+    EXPECT_EQ(run_this_program(folder, kToFile, arguments).code, 0);
+    expect_calls(blocks(folder), processes, calls_of_each);
+  }
 }
 
 TEST(Check, HasTheInputOfACallThatCrashes) {

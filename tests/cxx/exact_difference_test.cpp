@@ -148,14 +148,6 @@ TEST(ExactDifference, CountsBoundaryTriangles) {
     }
 }
 
-TEST(ExactDifference, CountsBoth) {
-  Mesh mesh(point_sets::make("hemisphere", 300));
-  ASSERT_EQ(mesh.remove_triangles(3), 3);
-  const int swapped = mesh.swap_arcs(11);
-  ASSERT_GT(swapped, 5);
-  expect_difference(mesh, swapped, 3, "");
-}
-
 /// Boundary nodes are pushed outwards while the lists stay the same: the exact mesh has fewer triangles.
 TEST(ExactDifference, CountsTrianglesThatTheExactMeshHasNot) {
   const std::vector<Point> disc = point_sets::make("hemisphere", 300);

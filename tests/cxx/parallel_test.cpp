@@ -687,26 +687,6 @@ TEST(Halo, IsThinWhereDensityVaries) {
   }
 }
 
-TEST(Halo, IsSentOnceWhereSomeNodesTellThatLengthsHideOne) {
-  for (const char* family : {"dense-cap:1e-7", "falling:14", "cap:1e-12"}) {
-    // Lengths of 2 are never taken as given.
-    std::int64_t halo[2];
-    for (const double length : {1, 2}) {
-      Nodes nodes = point_sets::make(family, 20000, 1);
-      for (Point& p : nodes) p = {length * p.x, length * p.y, length * p.z};
-      SingleProcess process;
-      const LocalNodes local{nodes.data(), nodes.size()};
-      ParallelOptions options;
-      options.patches = 4;
-      ParallelCost cost;
-      triangulate<std::int32_t>(local, check_nodes(local.points, local.count), {nodes[0], nodes[1], nodes[2]},
-                                {1, 2, 3}, process, options, &cost);
-      halo[length == 2] = cost.halo;
-    }
-    EXPECT_EQ(halo[0], halo[1]) << family;
-  }
-}
-
 // ---- the partition ----------------------------------------------------------------------------------
 
 TEST(Partitions, MarginIsWhatIsWithinReach) {

@@ -98,18 +98,6 @@ TEST(Report, TellsHowManyThreadsACallTakesAndWhy) {
   EXPECT_EQ(threads_of("taskset -c 0 " + unset, call), "threads=1 of=1 limit=none");
 }
 
-TEST(Report, TellsOfAMachineThatOthersUse) {
-  if (omp_get_num_procs() == 1) return;
-  const Folder folder;
-  const std::string spin =
-      "pids=; for i in $(seq " + std::to_string(2 * std::thread::hardware_concurrency()) +
-      "); do { while :; do :; done; } & pids=\"$pids $!\"; done; trap 'kill $pids' EXIT; ";
-  const Outcome outcome =
-      run(folder, spin + "env -u OMP_NUM_THREADS PSTRIPACK_REPORT=1", "inserted random 60000 1");
-  for (const std::string& line : lines(outcome.err))
-    EXPECT_TRUE(matches(line, ".*(threads=1 of=[0-9]+ limit=busy|total seconds|: threads +1) .*"));
-}
-
 TEST(Report, AWordIsNoFile) {
   const Folder folder;
   for (const std::string word : {"yes", "TRUE", "off"}) {

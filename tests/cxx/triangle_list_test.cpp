@@ -74,7 +74,7 @@ struct Expected {
   std::vector<int> listc;  ///< by slot; 0 = no triangle on the left
 };
 
-Expected by_definition(const Plain& lists, std::size_t first_pair) {
+Expected by_definition(const Plain& lists) {
   std::map<std::pair<int, int>, std::pair<int, int>> left;  // of an arc: triangle and side
   std::map<std::pair<int, int>, std::size_t> slot_of;
   Expected expected;
@@ -89,8 +89,8 @@ Expected by_definition(const Plain& lists, std::size_t first_pair) {
       slot_of[{a, std::abs(lists.list[slot - 1])}] = slot;
     } while (slot != last);
     for (std::size_t i = 0; i < ring.size(); ++i) {
-      const int b = lists.list[ring[(i + first_pair) % ring.size()] - 1];
-      const int c = std::abs(lists.list[ring[(i + first_pair + 1) % ring.size()] - 1]);
+      const int b = lists.list[ring[i] - 1];
+      const int c = std::abs(lists.list[ring[(i + 1) % ring.size()] - 1]);
       if (b < a || c < a) continue;
       expected.columns.push_back({a, b, c, 0, 0, 0, 0, 0, 0});
       const int t = static_cast<int>(expected.columns.size());
@@ -132,7 +132,7 @@ struct Arrays {
 
 template <class Int>
 void expect_columns(const Plain& lists) {
-  const Expected expected = by_definition(lists, 0);
+  const Expected expected = by_definition(lists);
   Arrays<Int> arrays(lists);
   for (const int rows : {3, 6, 9}) {
     Guarded<Int> ltri(static_cast<std::size_t>(rows) * expected.columns.size(), Edge::end);
@@ -149,7 +149,7 @@ void expect_columns(const Plain& lists) {
 /// The triangles of the set, without those that close the sphere, and their circumcentres.
 template <class Real, class Int>
 void expect_voronoi(const Plain& lists, const std::vector<Point>& points) {
-  const Expected expected = by_definition(lists, 0);
+  const Expected expected = by_definition(lists);
   Arrays<Int> arrays(lists);
   const std::size_t n = points.size();
   std::vector<Real> x, y, z, xc(2 * n - 4), yc(xc), zc(xc), rc(xc);
@@ -391,7 +391,7 @@ TEST(TriangleList, RefusesTheListsWhoseRingsDisagreeAndNoOthers) {
           ltri.data());
       ASSERT_EQ(status, right ? TriangleListStatus::done : TriangleListStatus::broken_lists) << i;
       if (!right) continue;
-      const Expected expected = by_definition(lists, 0);
+      const Expected expected = by_definition(lists);
       for (std::size_t t = 0; t < expected.columns.size(); ++t)
         for (std::size_t row = 0; row < static_cast<std::size_t>(rows); ++row)
           ASSERT_EQ(ltri[t * static_cast<std::size_t>(rows) + row], expected.columns[t][row]) << i;

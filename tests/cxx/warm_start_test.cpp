@@ -106,7 +106,7 @@ Nodes nodes_of(const std::string& family, std::size_t n) {
   return nodes;
 }
 
-constexpr std::size_t kN = 2000;
+constexpr std::size_t kN = 2000, kThreads = 6;
 
 TEST(WarmStart, IsInvisibleUnderLloydSteps) {
   for (const std::string& family : point_sets::families()) {
@@ -338,8 +338,9 @@ TEST(WarmStart, IsInvisibleInSinglePrecision) {
   }
 }
 
-TEST(WarmStart, IsInvisibleToThreadsThatCallAtOnce) {
-  constexpr std::size_t kThreads = 6;
+/// Two threads each with the same sets; `run(call)` calls call(0) to call(kThreads - 1) on threads.
+template <class Run>
+void expect_same_on_threads(const Run& run) {
   std::vector<std::vector<Nodes>> sets(kThreads);
   std::vector<std::vector<Result>> results(kThreads);
   for (std::size_t t = 0; t < kThreads; ++t) {
@@ -349,36 +350,28 @@ TEST(WarmStart, IsInvisibleToThreadsThatCallAtOnce) {
     });
   }
   free_cached_things();
-  std::vector<std::thread> threads;
-  for (std::size_t t = 0; t < kThreads; ++t)
-    threads.emplace_back([&, t] {
-      for (const Nodes& nodes : sets[t]) results[t].push_back(call(nodes));
-    });
-  for (auto& thread : threads) thread.join();
+  run([&](std::size_t t) {
+    for (const Nodes& nodes : sets[t]) results[t].push_back(call(nodes));
+  });
   for (std::size_t t = 0; t < kThreads; ++t)
     for (std::size_t i = 0; i < sets[t].size(); ++i)
       EXPECT_TRUE(same(results[t][i], cold_call(sets[t][i]))) << t << " " << i;
 }
 
+TEST(WarmStart, IsInvisibleToThreadsThatCallAtOnce) {
+  expect_same_on_threads([](const auto& calls) {
+    std::vector<std::thread> threads;
+    for (std::size_t t = 0; t < kThreads; ++t) threads.emplace_back([&calls, t] { calls(t); });
+    for (auto& thread : threads) thread.join();
+  });
+}
+
 #ifdef _OPENMP
-/// Threads of the program's own parallel region, each with its own mesh, or all with the same.
 TEST(WarmStart, IsInvisibleInsideAParallelRegion) {
-  constexpr int kThreads = 4, kSteps = 8;
-  std::vector<std::vector<Nodes>> sets;
-  for (int t = 0; t < kThreads; ++t) {
-    Random random(static_cast<std::uint64_t>(t / 2));
-    sets.push_back(sets_of(make("random", kN, static_cast<std::uint64_t>(t / 2)), kSteps,
-                           [&](Nodes& p, int) { move_all(p, 1e-3 * spacing(kN), random); }));
-  }
-  std::vector<std::vector<Result>> results(kThreads);
-  free_cached_things();
-#pragma omp parallel for num_threads(kThreads) schedule(static, 1)
-  for (int t = 0; t < kThreads; ++t)
-    for (const Nodes& nodes : sets[static_cast<std::size_t>(t)])
-      results[static_cast<std::size_t>(t)].push_back(call(nodes));
-  for (std::size_t t = 0; t < kThreads; ++t)
-    for (std::size_t i = 0; i < kSteps; ++i)
-      EXPECT_TRUE(same(results[t][i], cold_call(sets[t][i]))) << t << " " << i;
+  expect_same_on_threads([](const auto& calls) {
+#pragma omp parallel for num_threads(4) schedule(static, 1)
+    for (std::size_t t = 0; t < kThreads; ++t) calls(t);
+  });
 }
 #endif
 

@@ -98,6 +98,12 @@ std::vector<Nodes> small_sets() {
   return sets;
 }
 
+/// The code of a routine that returns a text.
+int text(void* handle) {
+  pstripack_free_text(handle);
+  return handle == nullptr ? -6 : 0;
+}
+
 template <class Kind>
 class EachAllocation : public ::testing::Test {
  protected:
@@ -109,10 +115,7 @@ using Kinds = ::testing::Types<R4, R8, I8>;
 TYPED_TEST_SUITE(EachAllocation, Kinds);
 
 TYPED_TEST(EachAllocation, OfTrmesh) {
-  for (const Nodes& nodes : small_sets()) {
-    Arrays<TypeParam> a(nodes);
-    this->fails(a.trmesh());
-  }
+  for (const Nodes& nodes : small_sets()) this->fails(Arrays<TypeParam>(nodes).trmesh());
 }
 
 /// For a grid PSTRIPACK_ORDER=bitwise returns the original's lists and reports how they differ from the exact
@@ -166,10 +169,6 @@ TYPED_TEST(EachAllocation, OfVoronoiDiagrams) {
                  {Result(a.lptr), Result(a.lnew), Result(ltri), Result(listc), Result(nb), Result(xc),
                   Result(yc), Result(zc), Result(rc)}});
     if (n > 200) continue;
-    const auto text = [](void* handle) {
-      pstripack_free_text(handle);
-      return handle == nullptr ? -6 : 0;
-    };
     this->fails({[&] {
                    void* const picture =
                        TypeParam::vrplot(7, Real(7.5), 30, 40, 90, a.n, a.x.data(), a.y.data(), a.z.data(),
@@ -237,10 +236,6 @@ TYPED_TEST(EachAllocation, OfListings) {
   std::vector<Int> ltri(9 * 200, -77);
   Int nt = 0, ier = 0;
   TypeParam::trlist(a.n, a.list.data(), a.lptr.data(), a.lend.data(), 9, &nt, ltri.data(), &ier);
-  const auto text = [](void* handle) {
-    pstripack_free_text(handle);
-    return handle == nullptr ? -6 : 0;
-  };
   for (const Int f90 : {0, 1}) {
     this->fails({[&] {
                    return text(TypeParam::trprnt(a.n, a.x.data(), a.y.data(), a.z.data(), 0, a.list.data(),
@@ -342,32 +337,27 @@ TEST_F(EachAllocationOf, ACallThatGoesToThePool) {
 }
 
 TEST_F(EachAllocationOf, TheValidator) {
+  const auto of_validator = [](Arrays<R8>& a) {
+    fails({[&] {
+             char message[200];
+             return pstripack_validate(a.n, a.x.data(), a.y.data(), a.z.data(), a.list.data(), a.lptr.data(),
+                                       a.lend.data(), a.lnew[0], message, sizeof message);
+           },
+           {},
+           -6,
+           0});
+  };
   for (const Nodes& nodes : {point_sets::make("random", 200), point_sets::make("cap", 150)}) {
     Arrays<R8> a = triangulated<R8>(nodes);
-    for (const int change : {0, 1}) {  // correct lists, and broken ones
-      a.list[5] += change;
-      fails({[&] {
-               char message[200];
-               return pstripack_validate(a.n, a.x.data(), a.y.data(), a.z.data(), a.list.data(),
-                                         a.lptr.data(), a.lend.data(), a.lnew[0], message, sizeof message);
-             },
-             {},
-             -6,
-             0});
-    }
+    of_validator(a);
+    ++a.list[5];  // broken lists
+    of_validator(a);
   }
   // Lists that are correct for other nodes: each thread finds a defect, whose text needs memory.
   omp_set_num_threads(2);
   Arrays<R8> a = triangulated<R8>(point_sets::make("random", 2500));
   for (auto* const axis : {&a.x, &a.y, &a.z}) std::reverse(axis->begin(), axis->end());
-  fails({[&] {
-           char message[200];
-           return pstripack_validate(a.n, a.x.data(), a.y.data(), a.z.data(), a.list.data(), a.lptr.data(),
-                                     a.lend.data(), a.lnew[0], message, sizeof message);
-         },
-         {},
-         -6,
-         0});
+  of_validator(a);
 }
 
 TEST_F(EachAllocationOf, TheFingerprint) {

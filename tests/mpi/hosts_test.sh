@@ -138,16 +138,6 @@ same_bytes)
     ranks "$JOB_PROGRAM" $mode > job.out 2> job.err || fail "$mode: exit code"
   done
   ;;
-ends)
-  for end in stop3 abort; do
-    "$MODEL" $end > alone.out 2> alone.err < /dev/null
-    alone=$?
-    pool "$MODEL" $end > job.out 2> job.err < /dev/null
-    code=$?
-    [ $code -eq $alone ] || fail "$end: exit code $code, alone $alone"
-    cmp alone.out job.out || fail "$end: stdout differs"
-  done
-  ;;
 killed)
   # A rank on another machine.
   for mode in idle pool calls meshes; do
