@@ -139,24 +139,6 @@ bool is_decided_by_directions(const Nodes& nodes) {
   return !fault(nodes, *rings_of(trmesh(nodes)), exact::On::coordinates).empty();
 }
 
-TEST(HiddenNodes, BehindOneThatIsLongerByLessThanTheToleranceAreCorrect) {
-  // A node longer by e hides a node at a distance of about e, or most nodes of a cluster within sqrt(8e).
-  Random random(5);
-  for (const double longer : {1e-9, 1e-7, 0.9e-6})
-    for (const auto& [hidden, within] : {std::pair{1, longer}, {100, 0.5 * std::sqrt(longer)}}) {
-      Nodes nodes = make("random", 200);
-      const Point top = nodes[100];
-      nodes[100] = {top.x * (1 + longer), top.y * (1 + longer), top.z * (1 + longer)};
-      for (int k = 0; k < hidden; ++k)
-        nodes.push_back(
-            normalized({top.x + within * random.uniform(-1, 1), top.y + within * random.uniform(-1, 1),
-                        top.z + within * random.uniform(-1, 1)}));
-      ASSERT_EQ(lengths_call_for(nodes), exact::On::coordinates);
-      EXPECT_TRUE(is_decided_by_directions(nodes)) << hidden << " behind one longer by " << longer;
-      expect_as_promised_in_any_order(nodes, std::to_string(hidden) + " hidden");
-    }
-}
-
 TEST(HiddenNodes, AmongLengthsWithin1em7OfOneAreCorrect) {
   Random random(6);
   for (const char* family : {"random", "cap:1e-3", "latlon", "ring"}) {

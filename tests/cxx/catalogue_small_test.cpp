@@ -35,18 +35,15 @@ TEST(FewNodes, BelowThreeAreRefusedInSilence) {
 }
 
 TEST(FewNodes, ThreeAreOneTriangleInBothOrders) {
-  Mesh m = trmesh({ex, ey, ez});
-  EXPECT_EQ(m.ier, 0);
-  EXPECT_EQ(m.list, (std::vector<std::int32_t>{2, -3, 3, -1, 1, -2}));
-  EXPECT_EQ(m.lptr, (std::vector<std::int32_t>{2, 1, 4, 3, 6, 5}));
-  EXPECT_EQ(m.lend, (std::vector<std::int32_t>{2, 4, 6}));
-  EXPECT_EQ(m.lnew, 7);
-  m = trmesh({ex, ez, ey});
-  EXPECT_EQ(m.ier, 0);
-  EXPECT_EQ(m.list, (std::vector<std::int32_t>{3, -2, 1, -3, 2, -1}));
-  EXPECT_EQ(m.lptr, (std::vector<std::int32_t>{2, 1, 4, 3, 6, 5}));
-  EXPECT_EQ(m.lend, (std::vector<std::int32_t>{2, 4, 6}));
-  EXPECT_EQ(m.lnew, 7);
+  for (const bool is_left : {true, false}) {
+    const Mesh m = is_left ? trmesh({ex, ey, ez}) : trmesh({ex, ez, ey});
+    EXPECT_EQ(m.ier, 0);
+    EXPECT_EQ(m.list, is_left ? (std::vector<std::int32_t>{2, -3, 3, -1, 1, -2})
+                              : (std::vector<std::int32_t>{3, -2, 1, -3, 2, -1}));
+    EXPECT_EQ(m.lptr, (std::vector<std::int32_t>{2, 1, 4, 3, 6, 5}));
+    EXPECT_EQ(m.lend, (std::vector<std::int32_t>{2, 4, 6}));
+    EXPECT_EQ(m.lnew, 7);
+  }
 }
 
 TEST(FewNodes, ThreeOnAGreatCircleAreCollinear) {

@@ -404,23 +404,6 @@ TEST_F(KeptPatches, NotForOtherPredicatesKindsOrNumbersOfPatches) {
   EXPECT_TRUE(keeps_soon(longer));
 }
 
-/// If lengths near 1 hide a node, each call first tries the coordinates as given, then directions. Both
-/// attempts keep the patches that the last call made for directions.
-TEST(Homes, OfDirectionsAreForLengthsAboutOneToo) {
-  const auto partition =
-      std::make_shared<Partition>(PartitionKind::bisection, 2, point_sets::make("random", 100, 1), 100);
-  const auto are_for = [&](Lengths last, Lengths now) {
-    Division division(Places(last, 1e-7));
-    division.partition = partition;
-    for (int rank = 0; rank < 2; ++rank) division.patches.add(1);
-    return Homes(division, {}, 0).are_for(PartitionKind::bisection, division.patches, now);
-  };
-  EXPECT_TRUE(are_for(Lengths::as_given, Lengths::as_given));
-  EXPECT_TRUE(are_for(Lengths::directions, Lengths::directions));
-  EXPECT_TRUE(are_for(Lengths::directions, Lengths::as_given));
-  EXPECT_FALSE(are_for(Lengths::as_given, Lengths::directions));
-}
-
 /// Found by walks around others' nodes where these are few, else in one pass over all faces.
 TEST(PatchHull, VisitsEachFaceAtTheBorderOnce) {
   for (const std::size_t own : {1u, 500u, 1000u, 1900u, 1990u}) {

@@ -127,44 +127,6 @@ TYPED_TEST(NextNearest, GivesAllNodesByDistance) {
     }
 }
 
-/// Any nodes in any order, also equally spaced numbers, which collide in a table indexed by the last bits.
-TYPED_TEST(NextNearest, IsTheNearestNeighbourOfAnyGivenNodes) {
-  using Real = typename TypeParam::Real;
-  using Int = typename TypeParam::Int;
-  Mesh<TypeParam> mesh(point_sets::make("random", 5000));
-  mesh.make_read_only();
-  const auto neighbours = [&](Int node) {
-    std::vector<Int> found;
-    const Int last = mesh.lend[static_cast<std::size_t>(node - 1)];
-    Int slot = last;
-    do {
-      const Int k = mesh.list[static_cast<std::size_t>(slot - 1)];
-      found.push_back(k < 0 ? -k : k);
-      slot = mesh.lptr[static_cast<std::size_t>(slot - 1)];
-    } while (slot != last);
-    return found;
-  };
-  for (const Int step : {1, 16, 19, 256})
-    for (const Int given : {1, 2, 3, 8, 17, 64, 255, 256, 257, 300}) {
-      std::vector<Int> npts;
-      for (Int i = 0; i < given; ++i) npts.push_back(1 + i * step % 4999);
-      if (std::set<Int>(npts.begin(), npts.end()).size() != npts.size()) continue;
-      Int nearest = 0;
-      Real least = 2;
-      for (const Int from : npts)
-        for (const Int k : neighbours(from))
-          if (std::find(npts.begin(), npts.end(), k) == npts.end() && mesh.distance(npts[0], k) < least) {
-            nearest = k;
-            least = mesh.distance(npts[0], k);
-          }
-      npts.push_back(-7);
-      Real distance = 5;
-      ASSERT_EQ(mesh.next(given + 1, npts.data(), distance), NextNearestStatus::done);
-      EXPECT_EQ(npts.back(), nearest) << "step " << step << ", " << given << " given";
-      EXPECT_EQ(distance, least);
-    }
-}
-
 /// A wrong number at any position is refused: all numbers are checked before any is used.
 TYPED_TEST(NextNearest, RefusesWrongNodes) {
   using Real = typename TypeParam::Real;

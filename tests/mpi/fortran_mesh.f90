@@ -171,8 +171,6 @@ contains
     if (ier /= 0 .or. found%reason /= pstripack_scvt_stopped) error stop "stopped"
     call mesh%scvt(xyz, number, found, ier, negative, options, message=message)
     if (ier /= pstripack_bad_density .or. index(message, "the density is -") /= 1) error stop "a bad density"
-    call mesh%scvt(xyz, number(2:), found, ier)
-    if (ier /= pstripack_bad_size) error stop "arrays of different sizes"
     xyz = transpose(xyz)
     call mesh%scvt(xyz, number, found, ier, message=message)
     write (expected_message, "(a,i0,a)") "rank 0: xyz is (", (n + size_of_world - 1)/size_of_world, &

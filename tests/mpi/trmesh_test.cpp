@@ -239,37 +239,6 @@ TEST(CollectiveTrmesh, RanksThatDisagreeAreToldSo) {
     }
 }
 
-TEST(Pieces, RingsOfEveryLengthAreCopied) {
-  constexpr std::int64_t least = 2, most = 300;
-  std::vector<std::int64_t> kept;
-  std::vector<std::size_t> begin;
-  for (std::int64_t count = least; count < most; ++count) {
-    begin.push_back(kept.size());
-    kept.push_back(count);
-    for (std::int64_t i = 0; i < count; ++i) kept.push_back(100 + 1000 * count + i);
-  }
-  pstripack::RingTable<std::int64_t> rings(begin.size());
-  for (std::size_t k = 0; k < begin.size(); ++k) rings.entries().set(k, &kept[begin[k]]);
-  const std::size_t arcs = rings.arcs();
-  std::vector<std::int32_t> list(arcs + 1, untouched), lend(rings.size()), lptr(1000 + arcs + 1, untouched);
-  pstripack::write_piece(rings, 1000, list.data(), lend.data(), 1);
-  std::size_t slot = 0;
-  for (std::size_t k = 0; k < rings.size(); ++k) {
-    for (std::uint32_t i = 0; i < rings[k].count; ++i) ASSERT_EQ(list[slot++], rings[k].begin[i]);
-    ASSERT_EQ(lend[k], static_cast<std::int32_t>(1000 + slot));
-  }
-  EXPECT_EQ(list[arcs], untouched);
-
-  for (std::int32_t& last : lend) last -= 1000;
-  pstripack::write_lptr(lend.data(), lend.size(), 0, lptr.data(), 1);
-  for (std::size_t k = 0; k < rings.size(); ++k) {
-    const std::int32_t first = k > 0 ? lend[k - 1] + 1 : 1;
-    for (std::int32_t s = first; s < lend[k]; ++s) ASSERT_EQ(lptr[static_cast<std::size_t>(s) - 1], s + 1);
-    ASSERT_EQ(lptr[static_cast<std::size_t>(lend[k]) - 1], first);
-  }
-  EXPECT_EQ(lptr[arcs], untouched);
-}
-
 TEST(Pieces, TheFirstCoincidenceIsFoundFromAnyPairsThatConnectTheSets) {
   const auto first = [](const std::vector<std::pair<std::int64_t, std::int64_t>>& numbers) {
     pstripack::CoincidentPairs pairs;

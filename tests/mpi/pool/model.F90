@@ -4,7 +4,6 @@
 !                      code 9 if the calls should have gone to the pool and did not
 !   model END          one call, a line on stdout, then END: stop, stop3, error_stop, exit5, abort
 !   model never END    the same without the call
-!   model echo         copies stdin to stdout
 
 program model
   use iso_c_binding, only: c_int
@@ -19,7 +18,6 @@ program model
   integer, parameter :: rk = REAL_KIND
   character(len=256) :: action, argument
   integer :: lun
-  real(rk) :: dummy(1)
 
   call get_command_argument(1, action)
   call get_command_argument(2, argument)
@@ -30,14 +28,11 @@ program model
     close (lun)
     call get_environment_variable('PSTRIPACK_POOL', argument)
     if (argument /= ' ' .and. pool_was_used() == 0) stop 9
-  case ('echo')
-    call echo
   case ('never')
     call end_by(argument)
   case default
     lun = 0
-    dummy = 0
-    call triangulate(5000, 0, dummy, dummy, dummy)
+    call random_set(5000, 2.0_rk, 0)
     call end_by(action)
   end select
 
@@ -56,15 +51,18 @@ contains
     call random_set(5000, 2.0_rk, 0)    ! and all is well again
   end subroutine
 
+  ! The result is written if a file is open.
   subroutine random_set(n, depth, fault)
     integer, intent(in) :: n, fault
     real(rk), intent(in) :: depth
-    real(rk), allocatable :: x(:), y(:), z(:)
+    real(rk), allocatable :: x(:), y(:), z(:), dist(:)
+    integer, allocatable :: list(:), lptr(:), lend(:), near(:), next(:)
     integer, parameter :: long = selected_int_kind(18)
     integer(long) :: seed
-    integer :: k
+    integer :: k, lnew, ier
     real(rk) :: longitude, r
-    allocate (x(n), y(n), z(n))
+    external trmesh
+    allocate (x(n), y(n), z(n), list(6*n-12), lptr(6*n-12), lend(n), near(n), next(n), dist(n))
     seed = 42
     do k = 1, n
       z(k) = 1 - depth * uniform(seed)
@@ -83,7 +81,16 @@ contains
       y(77) = huge(y)
       y(77) = 2 * y(77)
     end if
-    call triangulate(n, n, x, y, z)
+    list = -77
+    lptr = -77
+    lend = -77
+    lnew = -77
+    call trmesh(n, x, y, z, list, lptr, lend, lnew, near, next, dist, ier)
+    if (lun /= 0) then
+      write (lun) n, ier, lnew, lend, list, lptr
+    else if (ier /= 0) then
+      stop 8
+    end if
   end subroutine
 
   function uniform(seed) result(u)
@@ -92,40 +99,6 @@ contains
     seed = mod(16807 * seed, 2147483647_8)
     u = real(real(seed, kind(1d0)) / 2147483647d0, rk)
   end function
-
-! given = 0: nodes of its own, nothing is written.
-  subroutine triangulate(n, given, xgiven, ygiven, zgiven)
-    integer, intent(in) :: n, given
-    real(rk), intent(in) :: xgiven(*), ygiven(*), zgiven(*)
-    integer, allocatable :: list(:), lptr(:), lend(:), near(:), next(:)
-    real(rk), allocatable :: x(:), y(:), z(:), dist(:)
-    integer :: lnew, ier, k
-    real(rk) :: longitude
-    external trmesh
-    allocate (x(n), y(n), z(n), list(6*n-12), lptr(6*n-12), lend(n), near(n), next(n), dist(n))
-    if (given > 0) then
-      x = xgiven(1:n)
-      y = ygiven(1:n)
-      z = zgiven(1:n)
-    else
-      do k = 1, n
-        z(k) = 1 - (2 * real(k, rk) - 1) / n
-        longitude = real(mod(2.399963229728653d0 * k, 8 * atan(1d0)), rk)
-        x(k) = sqrt(1 - z(k)**2) * cos(longitude)
-        y(k) = sqrt(1 - z(k)**2) * sin(longitude)
-      end do
-    end if
-    list = -77
-    lptr = -77
-    lend = -77
-    lnew = -77
-    call trmesh(n, x, y, z, list, lptr, lend, lnew, near, next, dist, ier)
-    if (given > 0) then
-      write (lun) n, ier, lnew, lend, list, lptr
-    else if (ier /= 0) then
-      stop 8
-    end if
-  end subroutine
 
   subroutine end_by(how)
     character(len=*), intent(in) :: how
@@ -153,20 +126,6 @@ contains
     case default
       stop 7
     end select
-  end subroutine
-
-  subroutine echo
-    character(len=4096) :: line
-    integer :: status, length
-    do
-      read (5, '(a)', advance='no', size=length, iostat=status) line
-      if (status > 0 .or. is_iostat_end(status)) exit
-      if (is_iostat_eor(status)) then
-        print '(a)', line(1:length)
-      else
-        write (6, '(a)', advance='no') line(1:length)
-      end if
-    end do
   end subroutine
 
 end program model
