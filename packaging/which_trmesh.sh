@@ -9,7 +9,7 @@
 set -eu
 export LC_ALL=C
 subject=$1
-routines="TRMESH TRLIST CRLIST TRFIND GETNP"
+routines="trmesh trlist crlist trfind getnp"
 symbols='^((trmesh|trlist|crlist|trfind|getnp)_|__[a-z0-9_]+_MOD_trmesh)$'
 
 fail() {
@@ -20,6 +20,9 @@ fail() {
 for tool in nm objdump readelf; do
   command -v $tool > /dev/null || fail "needs $tool (Debian: apt-get install binutils)"
 done
+# Without the plugins of compilers, whose loading takes longer than all the rest.
+nm="nm --plugin=/dev/null"
+$nm --version > /dev/null 2>&1 || nm=nm
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 : > "$work/found"     # lines: symbol and defining file; "?": unknown, "-": undefined
@@ -27,20 +30,20 @@ trap 'rm -rf "$work"' EXIT
 : > "$work/misled"    # planar libraries that LD_PRELOAD makes call another TRMESH, and whose
 
 is_elf() { [ "$(head -c 4 "$1" | tail -c 3)" = ELF ]; }
-symbol_of() { echo "$1_" | tr '[:upper:]' '[:lower:]'; }
-texts_of() { grep -aoE '@\(#\)PSTRIPACK [a-z0-9_]+ [A-Z]+' "$1" || true; }
+# Lines "library ROUTINE"
+texts_of() { grep -aoE '@\(#\)PSTRIPACK [a-z0-9_]+ [A-Z]+' "$1" | cut -d ' ' -f 2-; }
 interpreter_of() { readelf -lW "$1" | sed -n 's/.*program interpreter: \(.*\)]/\1/p'; }
 
 # has TYPES [nm's option]: of the files that stdin names, lines for $work/found, one per symbol whose type in nm is one of
 # TYPES. One nm for all files, because its start takes longest; with /dev/null it names each file.
 has() {
-  xargs -r -d '\n' nm ${2:+"$2"} -P /dev/null 2> /dev/null | awk -v symbols="$symbols" -v types="^[$1]\$" '
+  xargs -r -d '\n' $nm ${2:+"$2"} -P /dev/null 2> /dev/null | awk -v symbols="$symbols" -v types="^[$1]\$" '
     /:$/ { file = substr($0, 1, length($0) - 1) }
     $1 ~ symbols && $2 ~ types { print $1, file }'
 }
 
 # Routines of the planar TRIPACK that STRIPACK does not have.
-is_planar() { { nm -P "$1"; nm -DP "$1"; } 2> /dev/null | grep -qE '^(addcst|trmshr)_ [TtWi] '; }
+is_planar() { { $nm -P "$1"; $nm -DP "$1"; } 2> /dev/null | grep -qE '^(addcst|trmshr)_ [TtWi] '; }
 
 # bindings FILE: prints the loader's report
 bindings() {
@@ -94,15 +97,14 @@ examine() {
   {
     echo "$1" | has TtWwi
     echo "$1" | has TWi -D
-    texts_of "$1" | while read -r _ _ routine; do echo "$(symbol_of "$routine") $1"; done
+    texts_of "$1" | awk -v file="$1" '{ print tolower($2) "_", file }'
   } >> "$work/found"
 
   # A stripped program shows only symbols that a library it was linked with defines as well.
   if grep -q ' SYMTAB ' "$work/header"; then return; fi
   has TWi -D < "$work/loaded" > "$work/shown"
   for routine in $routines; do
-    symbol=$(symbol_of "$routine")
-    grep -q "^$symbol " "$work/found" "$work/shown" || echo "$symbol ?" >> "$work/found"
+    grep -q "^${routine}_ " "$work/found" "$work/shown" || echo "${routine}_ ?" >> "$work/found"
   done
 }
 
@@ -158,13 +160,17 @@ compare_kinds() {
 
 status=0
 sort -u "$work/found" -o "$work/found"
-for routine in $routines; do
-  symbol=$(symbol_of "$routine")
-  grep -q "^$symbol " "$work/found" || echo "$symbol  "
-  grep "^$symbol " "$work/found" || true
-done | {
-  while read -r symbol file; do
-    routine=$(echo "${symbol%_}" | tr '[:lower:]' '[:upper:]')
+# Few processes: their starts are what takes time.
+awk -v routines="$routines" '
+  { found[$1] = found[$1] $0 "\n" }
+  END {
+    for (k = 1; k <= split(routines, name, " "); ++k) {
+      lines = found[name[k] "_"] ? found[name[k] "_"] : name[k] "_ \n"
+      for (i = 1; i < split(lines, line, "\n"); ++i) print toupper(name[k]), line[i]
+    }
+  }' "$work/found" | {
+  asked=
+  while read -r routine symbol file; do
     where=$file
     [ "$file" != "$program" ] || where="in the program itself"
     case $file in
@@ -176,7 +182,9 @@ done | {
         grep -q '^trmesh_ /' "$work/found" || status=1 ;;
       -) status=1 answer="nobody's: the symbol is undefined" ;;
       *)
-        library=$(texts_of "$file" | sed -n "s/.*PSTRIPACK \(.*\) $routine\$/\1/p" | head -n 1)
+        [ "$file" = "$asked" ] || asked=$file texts=" $(texts_of "$file" | tr '\n' ' ')"
+        library=${texts%% "$routine "*}
+        if [ "$library" = "$texts" ]; then library=; else library=${library##* }; fi
         if [ -n "$library" ]; then answer="ours ($library): $where"; else status=1 answer="NOT OURS: $where"; fi
         if [ "$routine" = TRMESH ] && [ -n "$library" ]; then compare_kinds "$library" || status=1; fi
         if [ "$routine" = TRMESH ] && [ -z "$library" ] && is_planar "$file"; then
@@ -199,7 +207,7 @@ done | {
   sort -u "$work/misled" | while read -r line; do
     echo "pstripack-config --check: the planar TRIPACK $line; LD_PRELOAD causes this: unset it" >&2
   done
-  c_calls=$({ nm -P "$program"; nm -DP "$program"; } 2> /dev/null | awk '$1 ~ /^pstripack_/ && $2 ~ /^[UT]$/ { print $1 }' |
+  c_calls=$({ $nm -P "$program"; $nm -DP "$program"; } 2> /dev/null | awk '$1 ~ /^pstripack_/ && $2 ~ /^[UT]$/ { print $1 }' |
     sort -u | head -n 3 | tr '\n' ' ')
   if ! [ -s "$work/found" ] && [ -n "$c_calls" ]; then
     echo "ours: $name calls the C interface: $c_calls"
