@@ -4,6 +4,7 @@
 #include <pthread.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <functional>
 #include <thread>
 #include <vector>
@@ -99,6 +100,20 @@ class ThreadRanks {
       if (least < 0) throw pstripack::AgreedFailure(least);
       bytes_sent += static_cast<std::int64_t>(outgoing.begin.back());
       return incoming;
+    }
+
+    void start(const pstripack::Parcels& outgoing, pstripack::Parcels& incoming) override {
+      group_.meet(rank_, &outgoing, [&] {
+        for (std::size_t r = 0; r < group_.posted_.size(); ++r) {
+          const auto& parcels = *static_cast<const pstripack::Parcels*>(group_.posted_[r]);
+          const auto me = static_cast<std::size_t>(rank_);
+          const std::size_t size = parcels.begin[me + 1] - parcels.begin[me];
+          if (size != incoming.begin[r + 1] - incoming.begin[r]) std::abort();
+          std::copy_n(parcels.bytes.data() + parcels.begin[me], size,
+                      incoming.bytes.data() + incoming.begin[r]);
+        }
+      });
+      bytes_sent += static_cast<std::int64_t>(outgoing.begin.back());
     }
 
    private:

@@ -53,6 +53,18 @@ class Communicator {
   /// most negative code.
   virtual Parcels exchange(const Parcels& outgoing, std::int32_t code = 0) = 0;
 
+  /// Allocates the bytes of `incoming`, whose `begin` tells what each rank sends here, and what start() needs
+  /// for these parcels. Not collective. Throws std::bad_alloc.
+  virtual void make_room(const Parcels& outgoing, Parcels& incoming) {
+    (void)outgoing;
+    incoming.bytes = Block(incoming.begin.back());
+  }
+  /// Starts to send every rank its parcel of `outgoing`, which fills that of this rank in `incoming` there.
+  /// The bytes of both must stay as they are until finish(). Needs make_room(). Allocates nothing.
+  virtual void start(const Parcels& outgoing, Parcels& incoming) = 0;
+  /// Waits for all that this rank has started. Not collective.
+  virtual void finish() {}
+
   /// Tells what this rank does now, for the report if the rank is lost. The text must be a literal. Not
   /// collective.
   virtual void set_phase(const char*) {}
@@ -77,6 +89,7 @@ class SingleProcess : public Communicator {
     return &value_;
   }
   Parcels exchange(const Parcels& outgoing, std::int32_t code) override;
+  void start(const Parcels& outgoing, Parcels& incoming) override;
 
  private:
   std::int64_t value_ = 0;
