@@ -4,6 +4,7 @@
 //   job distributed    a distributed mesh, and its lists on rank 0
 //   job calls N        TRMESH in comm mode for N nodes, forever; "call 2" on stdout
 //   job meshes N       the same with a distributed mesh
+//   job null_mesh N    the same, where rank 1 passes NULL in its second call
 //   job ... N error    MPI fails on rank 1 once a file "fail" exists. (A file, since output can be lost when
 //                      a rank aborts the job.)
 //
@@ -93,11 +94,16 @@ int main(int argc, char** argv) {
   if (std::strcmp(action, "distributed") == 0) right = distributed();
   if (std::strcmp(action, "calls") == 0 && pstripack_set_comm(MPI_COMM_WORLD) == 0)
     for_ever(with_error, [&] { return trmesh(nodes).ier; });
-  if (std::strcmp(action, "meshes") == 0) {
+  const bool with_null = std::strcmp(action, "null_mesh") == 0;
+  if (with_null || std::strcmp(action, "meshes") == 0) {
     const Share share(nodes);
     pstripack_mesh* mesh = nullptr;
     if (pstripack_mesh_create(MPI_COMM_WORLD, &mesh) == 0)
-      for_ever(with_error, [&] { return share.triangulate(mesh); });
+      for_ever(with_error, [&] {
+        const std::int32_t code = share.triangulate(mesh);
+        if (with_null && rank_of() == 1) mesh = nullptr;
+        return code;
+      });
   }
   MPI_Finalize();
   return right ? 0 : 1;

@@ -102,6 +102,11 @@ kill_calls | kill_meshes)
   grep -q 'rank 1 .*exited on signal 9' job.err || fail "mpirun does not name the rank"
   ! grep -q '^pstripack' job.err || fail "a line of ours"
   ;;
+null_mesh)
+  start null_mesh 1000
+  ends
+  grep -q '^pstripack: mesh_triangulate: the mesh is NULL on this rank' job.err || fail "no line"
+  ;;
 error_calls | error_meshes)
   start "${case#error_}" 100000 error
   until_it_says 'call 2'

@@ -70,10 +70,13 @@ class ThreadRanks {
       });
     }
 
-    pstripack::Parcels all_gather(const void* bytes, std::size_t size) override {
-      const std::pair<const void*, std::size_t> mine(bytes, size);
-      return collect(&mine, [](const void* other) {
-        return *static_cast<const std::pair<const void*, std::size_t>*>(other);
+    void all_gather_in_place(void* all, const std::vector<std::size_t>& begin) override {
+      auto* const to = static_cast<unsigned char*>(all);
+      group_.meet(rank_, all, [&] {
+        for (std::size_t r = 0; r < group_.posted_.size(); ++r)
+          if (r != static_cast<std::size_t>(rank_))
+            std::copy_n(static_cast<const unsigned char*>(group_.posted_[r]) + begin[r],
+                        begin[r + 1] - begin[r], to + begin[r]);
       });
     }
 

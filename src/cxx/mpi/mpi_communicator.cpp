@@ -295,21 +295,6 @@ void MpiCommunicator::exchange_sizes(const std::int64_t* out) {
     sizes_[(me + ranks - static_cast<std::size_t>(moving_[i].above)) % ranks] = moving_[i].value;
 }
 
-Parcels MpiCommunicator::all_gather(const void* bytes, std::size_t size) {
-  const auto ranks = static_cast<std::size_t>(size_), me = static_cast<std::size_t>(rank_);
-  all_gather_one(static_cast<std::int64_t>(size));
-  Parcels all;
-  in_agreement(*this, [&] {
-    all.begin.resize(ranks + 1);
-    for (std::size_t r = 0; r < ranks; ++r)
-      all.begin[r + 1] = all.begin[r] + static_cast<std::size_t>(sizes_[r]);
-    all.bytes = Block(all.begin[ranks]);
-  });
-  if (size > 0) std::memcpy(all.bytes.data() + all.begin[me], bytes, size);
-  all_gather_in_place(all.bytes.data(), all.begin);
-  return all;
-}
-
 void MpiCommunicator::all_gather_in_place(void* all, const std::vector<std::size_t>& begin) {
   const auto ranks = static_cast<std::size_t>(size_), me = static_cast<std::size_t>(rank_);
   bytes_sent += static_cast<std::int64_t>((begin[me + 1] - begin[me]) * (ranks - 1));

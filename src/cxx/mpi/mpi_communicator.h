@@ -35,16 +35,12 @@ class MpiCommunicator : public Communicator {
   int size() const override { return size_; }
   void all_min(std::int64_t* values, std::size_t count) override;
   void all_sum(std::int64_t* values, std::size_t count) override;
-  Parcels all_gather(const void* bytes, std::size_t size) override;
+  void all_gather_in_place(void* all, const std::vector<std::size_t>& begin) override;
   const std::int64_t* all_gather_one(std::int64_t value) override;
   Parcels exchange(const Parcels& outgoing, std::int32_t code = 0) override;
   void make_room(const Parcels& outgoing, Parcels& incoming) override;
   void start(const Parcels& outgoing, Parcels& incoming) override;
   void finish() override;
-
-  /// Every rank gets all of `all`, of which rank r brings the bytes [begin[r], begin[r+1]) in place.
-  /// Collective. Allocates nothing.
-  void all_gather_in_place(void* all, const std::vector<std::size_t>& begin);
 
   /// Copies `bytes` of rank `root` to every rank. Collective. Allocates nothing.
   void broadcast(void* bytes, std::size_t size, int root);

@@ -44,7 +44,10 @@ class Communicator {
   virtual void all_sum(std::int64_t* values, std::size_t count) = 0;
 
   /// Every rank gets the bytes of all ranks, in the order of the ranks.
-  virtual Parcels all_gather(const void* bytes, std::size_t size) = 0;
+  Parcels all_gather(const void* bytes, std::size_t size);
+  /// The same where every rank knows how many: `all` gets all of them, of which rank r brings [begin[r],
+  /// begin[r+1]) in place. Allocates nothing.
+  virtual void all_gather_in_place(void* all, const std::vector<std::size_t>& begin) = 0;
   /// The values of all ranks, in their order; valid until the next call of any member. Allocates nothing.
   virtual const std::int64_t* all_gather_one(std::int64_t value) = 0;
 
@@ -83,7 +86,7 @@ class SingleProcess : public Communicator {
   int size() const override { return 1; }
   void all_min(std::int64_t*, std::size_t) override {}
   void all_sum(std::int64_t*, std::size_t) override {}
-  Parcels all_gather(const void* bytes, std::size_t size) override;
+  void all_gather_in_place(void*, const std::vector<std::size_t>&) override {}
   const std::int64_t* all_gather_one(std::int64_t value) override {
     value_ = value;
     return &value_;
