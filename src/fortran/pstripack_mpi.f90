@@ -37,7 +37,7 @@ module pstripack_mpi
   end interface
 
   !> A distributed mesh. It cannot be copied by assignment. The end of its scope frees it.
-  !> Collective are create, triangulate, gather, scvt, free, and the end of its scope.
+  !> Collective are create, triangulate, gather, exchange, exchange_begin, check, scvt, free, and the end of its scope.
   type :: pstripack_mesh
     private
     type(c_ptr) :: handle = c_null_ptr
@@ -55,6 +55,15 @@ module pstripack_mpi
     procedure, public :: halo_owners
     procedure, public :: local_stars
     procedure, public :: gather
+    generic, public :: exchange => exchange_real_1, exchange_real_2, exchange_integer_1, exchange_integer_2
+    generic, public :: exchange_begin => exchange_begin_real_1, exchange_begin_real_2, exchange_begin_integer_1, &
+      exchange_begin_integer_2
+    generic, public :: exchange_end => exchange_end_real_1, exchange_end_real_2, exchange_end_integer_1, &
+      exchange_end_integer_2
+    procedure, private :: exchange_real_1, exchange_real_2, exchange_integer_1, exchange_integer_2
+    procedure, private :: exchange_begin_real_1, exchange_begin_real_2, exchange_begin_integer_1, exchange_begin_integer_2
+    procedure, private :: exchange_end_real_1, exchange_end_real_2, exchange_end_integer_1, exchange_end_integer_2
+    procedure, public :: check
     procedure, public :: scvt
     procedure, public :: free => free_mesh
     generic, public :: assignment(=) => do_not_copy
@@ -167,6 +176,42 @@ module pstripack_mpi
       type(c_ptr), value, intent(in) :: mesh
       integer(c_int32_t), value, intent(in) :: root
       integer(c_int32_t), intent(inout) :: list(*), lptr(*), lend(*), lnew
+      integer(c_int32_t) :: ier
+    end function
+
+    ! int32_t pstripack_mesh_exchange(pstripack_mesh* mesh, const void* values, int64_t width, void* halo_values);
+    function c_exchange(mesh, values, width, halo_values) result(ier) bind(c, name="pstripack_mesh_exchange")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value, intent(in) :: mesh
+      type(*), intent(in) :: values(*)
+      integer(c_int64_t), value, intent(in) :: width
+      type(*), intent(inout) :: halo_values(*)
+      integer(c_int32_t) :: ier
+    end function
+
+    ! int32_t pstripack_mesh_exchange_begin(pstripack_mesh* mesh, const void* values, int64_t width);
+    function c_exchange_begin(mesh, values, width) result(ier) bind(c, name="pstripack_mesh_exchange_begin")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value, intent(in) :: mesh
+      type(*), intent(in) :: values(*)
+      integer(c_int64_t), value, intent(in) :: width
+      integer(c_int32_t) :: ier
+    end function
+
+    ! int32_t pstripack_mesh_exchange_end(pstripack_mesh* mesh, int64_t width, void* halo_values);
+    function c_exchange_end(mesh, width, halo_values) result(ier) bind(c, name="pstripack_mesh_exchange_end")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value, intent(in) :: mesh
+      integer(c_int64_t), value, intent(in) :: width
+      type(*), intent(inout) :: halo_values(*)
+      integer(c_int32_t) :: ier
+    end function
+
+    ! int32_t pstripack_mesh_check(pstripack_mesh* mesh, uint64_t* fingerprint);
+    function c_check(mesh, fingerprint) result(ier) bind(c, name="pstripack_mesh_check")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value, intent(in) :: mesh
+      integer(c_int64_t), intent(inout) :: fingerprint
       integer(c_int32_t) :: ier
     end function
 
@@ -350,6 +395,127 @@ contains
     if (c_associated(mesh%handle)) ier = c_gather(mesh%handle, root, list, lptr, lend, lnew)
   end subroutine
 
+  ! exchange(values, halo_values, ier) sends values of own points, values(points) or values(width, points), to the ranks
+  ! that have them in their halo: halo_values(halo) or (width, halo), in the order of `halo`; real(c_double) or
+  ! integer(c_int64_t). exchange_begin(values, ier) and exchange_end(halo_values, ier) do the same with other work between
+  ! them; several may be under way, and end in the order in which they began. exchange and exchange_begin are collective.
+  ! ier: 0, pstripack_empty_mesh (or no exchange is under way), -6, pstripack_ranks_disagree (in width),
+  ! pstripack_bad_comm or pstripack_bad_size (width below 1; another than in exchange_begin). They stop the program if an
+  ! array is too short.
+
+  recursive subroutine exchange_real_1(mesh, values, halo_values, ier)
+    class(pstripack_mesh), intent(inout) :: mesh
+    real(c_double), intent(in), contiguous :: values(:)
+    real(c_double), intent(inout), contiguous :: halo_values(:)
+    integer(c_int32_t), intent(out) :: ier
+    ier = fits(mesh, size(values, 1, kind=c_int64_t), size(halo_values, 1, kind=c_int64_t))
+    if (ier == 0) ier = c_exchange(mesh%handle, values, 1_c_int64_t, halo_values)
+  end subroutine
+
+  recursive subroutine exchange_real_2(mesh, values, halo_values, ier)
+    class(pstripack_mesh), intent(inout) :: mesh
+    real(c_double), intent(in), contiguous :: values(:, :)
+    real(c_double), intent(inout), contiguous :: halo_values(:, :)
+    integer(c_int32_t), intent(out) :: ier
+    ier = fits(mesh, size(values, 2, kind=c_int64_t), size(halo_values, 2, kind=c_int64_t))
+    if (ier == 0) ier = c_exchange(mesh%handle, values, size(values, 1, kind=c_int64_t), halo_values)
+  end subroutine
+
+  recursive subroutine exchange_integer_1(mesh, values, halo_values, ier)
+    class(pstripack_mesh), intent(inout) :: mesh
+    integer(c_int64_t), intent(in), contiguous :: values(:)
+    integer(c_int64_t), intent(inout), contiguous :: halo_values(:)
+    integer(c_int32_t), intent(out) :: ier
+    ier = fits(mesh, size(values, 1, kind=c_int64_t), size(halo_values, 1, kind=c_int64_t))
+    if (ier == 0) ier = c_exchange(mesh%handle, values, 1_c_int64_t, halo_values)
+  end subroutine
+
+  recursive subroutine exchange_integer_2(mesh, values, halo_values, ier)
+    class(pstripack_mesh), intent(inout) :: mesh
+    integer(c_int64_t), intent(in), contiguous :: values(:, :)
+    integer(c_int64_t), intent(inout), contiguous :: halo_values(:, :)
+    integer(c_int32_t), intent(out) :: ier
+    ier = fits(mesh, size(values, 2, kind=c_int64_t), size(halo_values, 2, kind=c_int64_t))
+    if (ier == 0) ier = c_exchange(mesh%handle, values, size(values, 1, kind=c_int64_t), halo_values)
+  end subroutine
+
+  recursive subroutine exchange_begin_real_1(mesh, values, ier)
+    class(pstripack_mesh), intent(inout) :: mesh
+    real(c_double), intent(in), contiguous :: values(:)
+    integer(c_int32_t), intent(out) :: ier
+    ier = fits(mesh, size(values, 1, kind=c_int64_t))
+    if (ier == 0) ier = c_exchange_begin(mesh%handle, values, 1_c_int64_t)
+  end subroutine
+
+  recursive subroutine exchange_begin_real_2(mesh, values, ier)
+    class(pstripack_mesh), intent(inout) :: mesh
+    real(c_double), intent(in), contiguous :: values(:, :)
+    integer(c_int32_t), intent(out) :: ier
+    ier = fits(mesh, size(values, 2, kind=c_int64_t))
+    if (ier == 0) ier = c_exchange_begin(mesh%handle, values, size(values, 1, kind=c_int64_t))
+  end subroutine
+
+  recursive subroutine exchange_begin_integer_1(mesh, values, ier)
+    class(pstripack_mesh), intent(inout) :: mesh
+    integer(c_int64_t), intent(in), contiguous :: values(:)
+    integer(c_int32_t), intent(out) :: ier
+    ier = fits(mesh, size(values, 1, kind=c_int64_t))
+    if (ier == 0) ier = c_exchange_begin(mesh%handle, values, 1_c_int64_t)
+  end subroutine
+
+  recursive subroutine exchange_begin_integer_2(mesh, values, ier)
+    class(pstripack_mesh), intent(inout) :: mesh
+    integer(c_int64_t), intent(in), contiguous :: values(:, :)
+    integer(c_int32_t), intent(out) :: ier
+    ier = fits(mesh, size(values, 2, kind=c_int64_t))
+    if (ier == 0) ier = c_exchange_begin(mesh%handle, values, size(values, 1, kind=c_int64_t))
+  end subroutine
+
+  recursive subroutine exchange_end_real_1(mesh, halo_values, ier)
+    class(pstripack_mesh), intent(inout) :: mesh
+    real(c_double), intent(inout), contiguous :: halo_values(:)
+    integer(c_int32_t), intent(out) :: ier
+    ier = fits(mesh, halo_given=size(halo_values, 1, kind=c_int64_t))
+    if (ier == 0) ier = c_exchange_end(mesh%handle, 1_c_int64_t, halo_values)
+  end subroutine
+
+  recursive subroutine exchange_end_real_2(mesh, halo_values, ier)
+    class(pstripack_mesh), intent(inout) :: mesh
+    real(c_double), intent(inout), contiguous :: halo_values(:, :)
+    integer(c_int32_t), intent(out) :: ier
+    ier = fits(mesh, halo_given=size(halo_values, 2, kind=c_int64_t))
+    if (ier == 0) ier = c_exchange_end(mesh%handle, size(halo_values, 1, kind=c_int64_t), halo_values)
+  end subroutine
+
+  recursive subroutine exchange_end_integer_1(mesh, halo_values, ier)
+    class(pstripack_mesh), intent(inout) :: mesh
+    integer(c_int64_t), intent(inout), contiguous :: halo_values(:)
+    integer(c_int32_t), intent(out) :: ier
+    ier = fits(mesh, halo_given=size(halo_values, 1, kind=c_int64_t))
+    if (ier == 0) ier = c_exchange_end(mesh%handle, 1_c_int64_t, halo_values)
+  end subroutine
+
+  recursive subroutine exchange_end_integer_2(mesh, halo_values, ier)
+    class(pstripack_mesh), intent(inout) :: mesh
+    integer(c_int64_t), intent(inout), contiguous :: halo_values(:, :)
+    integer(c_int32_t), intent(out) :: ier
+    ier = fits(mesh, halo_given=size(halo_values, 2, kind=c_int64_t))
+    if (ier == 0) ier = c_exchange_end(mesh%handle, size(halo_values, 1, kind=c_int64_t), halo_values)
+  end subroutine
+
+  !> Compares the stars of all ranks with each other: every star is a cycle, every triangle stands in the stars of its
+  !> three corners, and all triangles cover one sphere or disc. Collective.
+  !>   fingerprint  out: a hash that depends on the set of triangles alone
+  !>   ier          out: 0, pstripack_empty_mesh, -6, pstripack_bad_comm, or -13: then error_points tells a point with a
+  !>                wrong star, 0 if only Euler's formula fails
+  recursive subroutine check(mesh, fingerprint, ier)
+    class(pstripack_mesh), intent(inout) :: mesh
+    integer(c_int64_t), intent(inout) :: fingerprint
+    integer(c_int32_t), intent(out) :: ier
+    ier = pstripack_empty_mesh
+    if (c_associated(mesh%handle)) ier = c_check(mesh%handle, fingerprint)
+  end subroutine
+
   !> A centroidal tessellation of the generators of all ranks, which stay on their ranks. The types are those of module
   !> pstripack; see also pstripack_scvt there. Collective.
   !>   xyz, number  as in triangulate; xyz in: the generators to start from, vectors of any length; out: the generators
@@ -416,6 +582,20 @@ contains
     if (size(xyz, 2, kind=c_int64_t) /= n .or. (n > 0 .and. size(xyz, 1) /= 3)) &
       count_or_shape = -1 - (min(size(xyz, 1, kind=c_int64_t) + 1, most)*(most + 1) + &
                              min(size(xyz, 2, kind=c_int64_t), most))
+  end function
+
+  !> 0 if arrays of so many points and halo points are long enough for the mesh.
+  recursive integer(c_int32_t) function fits(mesh, points_given, halo_given)
+    class(pstripack_mesh), intent(in) :: mesh
+    integer(c_int64_t), intent(in), optional :: points_given, halo_given
+    integer(c_int64_t) :: points, arcs, triangles, halo
+    logical :: is_short
+    call mesh%sizes(points, arcs, triangles, halo)
+    is_short = .false.
+    if (present(points_given)) is_short = points_given < points
+    if (present(halo_given)) is_short = is_short .or. halo_given < halo
+    if (is_short) error stop "pstripack_mesh: exchange: an array is too short"
+    fits = merge(0_c_int32_t, pstripack_empty_mesh, c_associated(mesh%handle))
   end function
 
   !> The number of own points, if arrays of these sizes have room for the stars.

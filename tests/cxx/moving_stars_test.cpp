@@ -105,7 +105,7 @@ class OneRank {
     options.with_neighbours = true;
     stars_ = triangulate<Int>(counted, check, corners, {corner[0], corner[1], corner[2]}, ranks_, options);
     if (!stars_.coincident.empty()) return;
-    fetch_halo(stars_.outside, local, ranges_, ranks_);
+    stars_.halo = fetch_halo(stars_.outside, local, ranges_, ranks_);
     if (check.lengths_are_one.value) moving_ = MovingStars::make(local, ranges_, stars_, ranks_);
     if (right) compare(nodes, *right);
   }

@@ -103,7 +103,12 @@ class GatheringEvaluator final : public Evaluator {
         neighbour_.push_back(local[static_cast<std::size_t>(stars.neighbour[s]) - 1]);
       end_.push_back(static_cast<std::int32_t>(neighbour_.size()));
     }
-    return {points_.data(), numbers_.data(), {generators.size(), end_.data(), neighbour_.data()}, owners};
+    halo_ = Halo(owners, ranks_);
+    return {points_.data(),
+            numbers_.data(),
+            {generators.size(), end_.data(), neighbour_.data()},
+            points_.size(),
+            &halo_};
   }
 
  private:
@@ -111,6 +116,7 @@ class GatheringEvaluator final : public Evaluator {
   std::vector<std::int64_t> numbers_;
   std::vector<Point> points_;
   std::vector<std::int32_t> end_, neighbour_;
+  Halo halo_;
 };
 
 TEST(Spread, RandomGeneratorsAreTheSameOnAnyNumberOfRanks) {

@@ -98,6 +98,10 @@ contains
     number = [number, halo_number]
     if (any(number(local) /= neighbour)) error stop "local numbers"
 
+    call exchange_values(mesh, number(:points), halo_number)
+    call mesh%check(k, ier)
+    if (ier /= 0 .or. k /= pstripack_fingerprint(list, lptr, lend)) error stop "check"
+
     call mesh%gather(pstripack_every_rank, list2, lptr2, lend2, lnew2, ier)
     if (ier /= 0) error stop "gather"
     if (any(list2 /= list) .or. any(lptr2 /= lptr) .or. any(lend2 /= lend) .or. lnew2 /= lnew) &
@@ -129,6 +133,41 @@ contains
     call mesh%free()
     call mesh%triangulate(all(:, :0), number(:0), ier)
     if (ier /= pstripack_empty_mesh) error stop "a freed mesh"
+    call mesh%exchange(halo_number(:0), halo_number(:0), ier)
+    if (ier /= pstripack_empty_mesh) error stop "exchange of a freed mesh"
+    call mesh%check(k, ier)
+    if (ier /= pstripack_empty_mesh) error stop "check of a freed mesh"
+  end subroutine
+
+  ! Values that follow from the numbers of the points, alone and three a point; two exchanges under way.
+  subroutine exchange_values(mesh, number, halo_number)
+    type(pstripack_mesh), intent(inout) :: mesh
+    integer(int64), intent(in) :: number(:), halo_number(:)
+    integer(int64) :: one(size(halo_number)), three(3, size(halo_number))
+    real(real64) :: x(size(halo_number)), xyz(3, size(halo_number))
+    integer(int64) :: j
+    integer(int64), parameter :: factor(3) = [1_int64, -7_int64, 2_int64**40]
+    call mesh%exchange(number, one, ier)
+    if (ier /= 0 .or. any(one /= halo_number)) error stop "exchange of integers"
+    call mesh%exchange(all(1, int(number)), x, ier)
+    if (ier /= 0 .or. any(x /= all(1, int(halo_number)))) error stop "exchange of reals"
+    call mesh%exchange_begin(all(:, int(number)), ier)
+    if (ier /= 0) error stop "exchange_begin"
+    call mesh%exchange_begin(reshape([(factor*number(j), j=1, size(number))], [3, size(number)]), ier)
+    if (ier /= 0) error stop "exchange_begin of integers"
+    call mesh%exchange(all(:, int(number)), xyz(:, size(x):1:-1), ier)
+    if (ier /= 0 .or. any(xyz(:, size(x):1:-1) /= all(:, int(halo_number)))) error stop "exchange in the other order"
+    call mesh%exchange_end(x, ier)
+    if (ier /= pstripack_bad_size) error stop "exchange_end of another width"
+    call mesh%exchange_end(xyz, ier)
+    if (ier /= 0 .or. any(xyz /= all(:, int(halo_number)))) error stop "exchange_end"
+    call mesh%exchange_end(three, ier)
+    if (ier /= 0) error stop "exchange_end of integers"
+    if (any([(any(three(:, j) /= factor*halo_number(j)), j=1, size(halo_number))])) error stop "integers"
+    call mesh%exchange_end(xyz, ier)
+    if (ier /= pstripack_empty_mesh) error stop "no exchange under way"
+    call mesh%exchange(all(:0, int(number)), xyz(:0, :), ier)
+    if (ier /= pstripack_bad_size) error stop "no values"
   end subroutine
 
   subroutine use_scvt

@@ -98,6 +98,18 @@ kill_calls | kill_meshes)
   grep -q 'rank 1 .*exited on signal 9' job.err || fail "mpirun does not name the rank"
   ! grep -q '^pstripack' job.err || fail "a line of ours"
   ;;
+messages)
+  start messages 2000
+  wait "$job" || fail "exit code"
+  job=
+  # A vote of two messages on the width, and one to each neighbour.
+  grep -q '^exchange: [34] messages on 3 ranks' job.out || fail "more messages in an exchange"
+  ;;
+null_mesh)
+  start null_mesh 1000
+  ends
+  grep -q '^pstripack: mesh_triangulate: the mesh is NULL on this rank' job.err || fail "no line"
+  ;;
 error_calls | error_meshes)
   start "${case#error_}" 100000 error
   until_it_says 'call 2'

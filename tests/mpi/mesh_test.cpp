@@ -135,10 +135,49 @@ void check_part(const pstripack_mesh* mesh, const Nodes& nodes, const std::vecto
   ASSERT_TRUE(std::includes(all.begin(), all.end(), faces.begin(), faces.end()));
 }
 
+/// `width` values for each of these points, which follow from their numbers.
+template <class Value>
+std::vector<Value> values_of(const std::vector<std::int64_t>& numbers, std::int64_t width) {
+  std::vector<Value> values;
+  for (const std::int64_t number : numbers)
+    for (std::int64_t k = 0; k < width; ++k) values.push_back(static_cast<Value>(number * (k + 1) - 5 * k));
+  return values;
+}
+
+/// Values arrive, by one call and in two parts, several under way. Collective.
+void check_exchange(pstripack_mesh* mesh, const std::vector<std::size_t>& mine, const Number& number) {
+  std::vector<std::int64_t> numbers, halo(static_cast<std::size_t>(Sizes(mesh).halo));
+  for (const std::size_t i : mine) numbers.push_back(number(i));
+  std::vector<double> xyz(3 * halo.size());
+  pstripack_mesh_halo(mesh, halo.data(), xyz.data());
+  const auto begin = [&](auto kind, std::int64_t width) {
+    const auto values = values_of<decltype(kind)>(numbers, width);
+    EXPECT_EQ(pstripack_mesh_exchange_begin(mesh, values.data(), width), 0);
+  };
+  const auto end = [&](auto kind, std::int64_t width) {
+    const auto expected = values_of<decltype(kind)>(halo, width);
+    std::vector<decltype(kind)> found(expected.size());
+    EXPECT_EQ(pstripack_mesh_exchange_end(mesh, width, found.data()), 0);
+    EXPECT_EQ(found, expected);
+  };
+  begin(double{}, 1);
+  begin(std::int64_t{}, 100);
+  const auto values = values_of<double>(numbers, 3), expected = values_of<double>(halo, 3);
+  std::vector<double> found(expected.size());
+  EXPECT_EQ(pstripack_mesh_exchange(mesh, values.data(), 3, found.data()), 0);
+  EXPECT_EQ(found, expected);
+  end(double{}, 1);
+  begin(double{}, 2);
+  end(std::int64_t{}, 100);
+  end(double{}, 2);
+}
+
 /// Collective, even if checks fail on this rank.
-void check(const pstripack_mesh* mesh, const Nodes& nodes, const std::vector<std::size_t>& mine,
+void check(pstripack_mesh* mesh, const Nodes& nodes, const std::vector<std::size_t>& mine,
            const Number& number, const Rings& rings) {
   check_part(mesh, nodes, mine, number, rings);
+  check_exchange(mesh, mine, number);
+  EXPECT_EQ(pstripack_mesh_check(mesh, nullptr), 0);
   EXPECT_EQ(sum(Sizes(mesh).triangles), static_cast<std::int64_t>(faces_of(rings).size()));
 }
 
@@ -184,6 +223,10 @@ TEST(DistributedMesh, GathersTheCanonicalLists) {
     for (const auto& d : distributions())
       for (const int root : {-1, 0, size_of() - 1}) {
         ASSERT_EQ(triangulate(mesh, nodes, nodes_here(d, nodes.size()), from_one), 0);
+        std::uint64_t fingerprint = 0;
+        EXPECT_EQ(pstripack_mesh_check(mesh, &fingerprint), 0);
+        EXPECT_EQ(fingerprint,
+                  pstripack_fingerprint(300, serial.list.data(), serial.lptr.data(), serial.lend.data()));
         Mesh m = serial;
         for (auto* array : {&m.list, &m.lptr, &m.lend}) std::fill(array->begin(), array->end(), untouched);
         const bool here = root == -1 || root == rank_of();
@@ -257,6 +300,10 @@ TEST(DistributedMesh, NothingOutsideTheArraysIsTouched) {
     Guarded<std::int32_t> owner(halo, edge), place(halo, edge);
     pstripack_mesh_halo_owners(mesh, owner.data(), place.data());
     pstripack_mesh_triangles(mesh, corner.data());
+    Guarded<std::int64_t> received(3 * halo, edge);
+    xyz.make_read_only();
+    EXPECT_EQ(pstripack_mesh_exchange(mesh, xyz.data(), 3, halo_xyz.data()), 0);
+    EXPECT_EQ(pstripack_mesh_exchange(mesh, xyz.data(), 3, received.data()), 0);
 
     Guarded<std::int32_t> list(6 * nodes.size() - 12, edge), lptr(list.size(), edge),
         lend(nodes.size(), edge), lnew(1, edge);
@@ -288,6 +335,8 @@ void expect_failure(const Nodes& nodes, const Number& number, const Failed& expe
     const Sizes sizes(mesh);
     EXPECT_EQ(sizes.points + sizes.arcs + sizes.triangles + sizes.halo, 0);
     EXPECT_EQ(pstripack_mesh_gather(mesh, 0, nullptr, nullptr, nullptr, nullptr), -3);
+    EXPECT_EQ(pstripack_mesh_exchange(mesh, nullptr, 1, nullptr), -3);
+    EXPECT_EQ(pstripack_mesh_check(mesh, nullptr), -3);
   }
 }
 
@@ -400,13 +449,16 @@ bool declines(pstripack_mesh* mesh) {
   const bool all =
       pstripack_mesh_triangulate(mesh, 0, nullptr, nullptr) == PSTRIPACK_BAD_COMM &&
       pstripack_mesh_gather(mesh, -1, nullptr, nullptr, nullptr, nullptr) == PSTRIPACK_BAD_COMM &&
+      pstripack_mesh_exchange(mesh, nullptr, 1, nullptr) == PSTRIPACK_BAD_COMM &&
+      pstripack_mesh_exchange_end(mesh, 1, nullptr) == PSTRIPACK_BAD_COMM &&
+      pstripack_mesh_check(mesh, nullptr) == PSTRIPACK_BAD_COMM &&
       pstripack_mesh_scvt(mesh, 0, nullptr, nullptr, nullptr, nullptr, nullptr, message, sizeof message) ==
           PSTRIPACK_BAD_COMM;
   const std::string why = "MPI is not running, or must not be called by this thread or process";
-  return testing::internal::GetCapturedStderr() == "pstripack: mesh_triangulate: " + why +
-                                                       " (IER = -8)\npstripack: mesh_gather: " + why +
-                                                       " (IER = -8)\n" &&
-         message == why && all;
+  std::string lines;
+  for (const char* call : {"mesh_triangulate", "mesh_gather", "mesh_exchange", "mesh_exchange", "mesh_check"})
+    lines += std::string("pstripack: ") + call + ": " + why + " (IER = -8)\n";
+  return testing::internal::GetCapturedStderr() == lines && message == why && all;
 }
 
 TEST(DistributedMesh, DeclinesCallsOfThreadsAndForkedChildrenThatMustNotCallMpi) {
@@ -432,6 +484,103 @@ TEST(DistributedMesh, DeclinesCallsOfThreadsAndForkedChildrenThatMustNotCallMpi)
     }).join();
   ASSERT_EQ(pstripack_mesh_gather(mesh, -2, nullptr, nullptr, nullptr, nullptr), PSTRIPACK_BAD_COMM);
   EXPECT_EQ(triangulate(mesh, nodes, mine, from_one), 0);
+}
+
+/// Expects a call of the mesh to return a code, and one line of rank 0.
+void expect_line(const std::function<int()>& call, int code, const std::string& line) {
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(call(), code);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            rank_of() == 0 ? "pstripack: " + line + " (IER = " + std::to_string(code) + ")\n" : "");
+}
+
+TEST(DistributedMesh, ExchangeRefusesWidthsAlikeOnEveryRank) {
+  OfMesh mesh;
+  const Nodes nodes = point_sets::make("random", 60);
+  const auto mine = nodes_here(distributions()[0], nodes.size());
+  ASSERT_EQ(triangulate(mesh, nodes, mine, from_one), 0);
+  const int odd = size_of() - 1;
+  std::vector<double> values(1000), halo(1000, -1);
+  const auto exchange = [&](std::int64_t there, std::int64_t here) {
+    return [&, width = rank_of() == odd ? here : there] {
+      return pstripack_mesh_exchange(mesh, values.data(), width, halo.data());
+    };
+  };
+  const std::string of_odd = "mesh_exchange: rank " + std::to_string(odd) + ": width = ";
+  for (const std::int64_t width :
+       {std::int64_t{0}, std::int64_t{-7}, std::numeric_limits<std::int64_t>::min()})
+    expect_line(exchange(2, width), PSTRIPACK_BAD_SIZE, of_odd + std::to_string(width) + " is below 1");
+  if (size_of() > 1) {
+    expect_line(exchange(2, 3), PSTRIPACK_RANKS_DISAGREE,
+                "mesh_exchange: width is 2 on rank 0 and 3 on rank " + std::to_string(odd));
+    const std::int64_t most = std::numeric_limits<std::int64_t>::max();
+    for (const std::int64_t width : {most, most / 8, most / 64, std::int64_t{1} << 50})
+      expect_line(exchange(width, width), PSTRIPACK_OUT_OF_MEMORY, "mesh_exchange: out of memory");
+  }
+  EXPECT_EQ(halo, std::vector<double>(1000, -1));
+  check(mesh, nodes, mine, from_one, serial_rings(nodes));
+}
+
+TEST(DistributedMesh, ATriangulationAndTheEndOfTheMeshEndExchanges) {
+  const Nodes nodes = point_sets::make("random", 300);
+  const auto mine = nodes_here(distributions()[0], nodes.size());
+  const std::vector<double> values(1000 * mine.size());
+  double none;
+  const auto expect_no_exchange = [&](pstripack_mesh* mesh, std::int64_t width, int code, const char* why) {
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(pstripack_mesh_exchange_end(mesh, width, &none), code);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "pstripack: mesh_exchange_end: " + std::string(why) +
+                                                          " (IER = " + std::to_string(code) + ")\n");
+  };
+  const char* const no_exchange = "the mesh is empty, or no exchange of its values is under way";
+  OfMesh mesh;
+  expect_no_exchange(mesh, 1, PSTRIPACK_EMPTY_MESH, no_exchange);
+  for (int step = 0; step < 4; ++step) {
+    for (int i = 0; i < step; ++i)
+      if (step > 1) {
+        EXPECT_EQ(pstripack_mesh_exchange_begin(mesh, values.data(), 1000), 0);
+        expect_no_exchange(mesh, 7, PSTRIPACK_BAD_SIZE,
+                           "width is not that with which the exchange has begun");
+      }
+    ASSERT_EQ(triangulate(mesh, nodes, mine, from_one), 0);
+    expect_no_exchange(mesh, 1000, PSTRIPACK_EMPTY_MESH, no_exchange);
+    check(mesh, nodes, mine, from_one, serial_rings(nodes));
+  }
+  EXPECT_EQ(pstripack_mesh_exchange_begin(mesh, values.data(), 1000), 0);
+  EXPECT_EQ(pstripack_mesh_exchange_begin(mesh, values.data(), 1), 0);
+  EXPECT_EQ(pstripack_mesh_gather(mesh, -2, nullptr, nullptr, nullptr, nullptr), PSTRIPACK_BAD_COMM);
+  EXPECT_EQ(pstripack_mesh_check(mesh, nullptr), 0);
+  std::vector<double> halo(1000 * static_cast<std::size_t>(Sizes(mesh).halo));
+  EXPECT_EQ(pstripack_mesh_exchange_end(mesh, 1000, halo.data()), 0);
+}  // one is under way
+
+TEST(DistributedMesh, RanksThatMakeDifferentCallsAreToldWhich) {
+  if (size_of() == 1) return;
+  OfMesh mesh;
+  const Nodes nodes = point_sets::make("random", 60);
+  const auto mine = nodes_here(distributions()[0], nodes.size());
+  const std::vector<double> values(mine.size());
+  char message[100] = "";
+  const std::pair<const char*, std::function<int()>> calls[] = {
+      {"mesh_triangulate", [&] { return triangulate(mesh, nodes, mine, from_one); }},
+      {"mesh_gather", [&] { return pstripack_mesh_gather(mesh, -1, nullptr, nullptr, nullptr, nullptr); }},
+      {"mesh_exchange", [&] { return pstripack_mesh_exchange_begin(mesh, values.data(), 1); }},
+      {"mesh_check", [&] { return pstripack_mesh_check(mesh, nullptr); }}};
+  for (std::size_t a = 0; a < std::size(calls); ++a)
+    for (std::size_t b = 0; b < std::size(calls); ++b) {
+      if (a == b) continue;
+      const auto& [name, call] = calls[rank_of() == size_of() - 1 ? b : a];
+      ASSERT_EQ(triangulate(mesh, nodes, mine, from_one), 0);
+      expect_line(call, PSTRIPACK_RANKS_DISAGREE,
+                  std::string(calls[a].first) + ": some ranks have called " + calls[std::min(a, b)].first +
+                      ", others " + calls[std::max(a, b)].first);
+      EXPECT_EQ(pstripack_mesh_check(mesh, nullptr), PSTRIPACK_EMPTY_MESH);
+    }
+  const auto scvt = [&] {
+    return pstripack_mesh_scvt(mesh, 0, nullptr, nullptr, nullptr, nullptr, nullptr, message, sizeof message);
+  };
+  EXPECT_EQ(rank_of() == 0 ? scvt() : calls[1].second(), PSTRIPACK_RANKS_DISAGREE);
+  EXPECT_STREQ(message, rank_of() == 0 ? "some ranks have called mesh_gather, others mesh_scvt" : "");
 }
 
 TEST(DistributedMesh, RefusesWhatIsNoIntraCommunicator) {

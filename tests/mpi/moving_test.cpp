@@ -100,6 +100,18 @@ std::int32_t triangulate(DistributedMesh& mesh, const Part& part, DistributedMes
   }
 }
 
+/// Exchanges the numbers of the points, and points. Collective.
+void expect_exchange(DistributedMesh& mesh, const Part& part, const Result& right) {
+  std::vector<std::int64_t> halo(right.halo.size());
+  std::vector<double> xyz(right.xyz.size());
+  EXPECT_EQ(mesh.begin_exchange(part.numbers.data(), 1), 0);
+  EXPECT_EQ(mesh.begin_exchange(part.points.data(), 3), 0);
+  EXPECT_EQ(mesh.end_exchange(1, halo.data(), false), 0);
+  EXPECT_EQ(mesh.end_exchange(3, xyz.data(), false), 0);
+  EXPECT_EQ(halo, right.halo);
+  EXPECT_EQ(xyz, right.xyz);
+}
+
 /// A mesh, compared with a new one at each call.
 class Beside {
  public:
@@ -112,6 +124,13 @@ class Beside {
     const Result right = result_of(anew, triangulate(anew, part));
     EXPECT_TRUE(result_of(mesh_, code) == right) << (report.cost.mine.flips >= 0 ? "warm" : "cold");
     EXPECT_EQ(report.points, static_cast<std::int64_t>(nodes.size()));
+    if (right.code == 0) {
+      std::uint64_t fingerprint = 1, of_new = 0;
+      EXPECT_EQ(mesh_.check(&fingerprint), 0);
+      EXPECT_EQ(anew.check(&of_new), 0);
+      EXPECT_EQ(fingerprint, of_new);
+      expect_exchange(mesh_, part, right);
+    }
     return report.cost.mine.flips >= 0;
   }
 
@@ -332,6 +351,40 @@ bool is_on_any(int value) {
 
 /// Any allocation, or all from one on, fail on a rank in a call that would begin with the last stars: all
 /// ranks get the same stars, or code -6, and the next call is correct.
+/// Stars that are damaged on the last rank: check() tells the damaged one, or a smaller neighbour.
+TEST(Moving, CheckFindsDamagedStars) {
+  const Nodes nodes = point_sets::make("random", 200, 1);
+  Part part = part_of(nodes);
+  part.place(nodes);
+  using Damage = std::function<void(std::int32_t*, std::uint32_t)>;
+  const Damage damages[] = {
+      [](std::int32_t* ring, std::uint32_t) { std::swap(ring[0], ring[1]); },
+      [](std::int32_t* ring, std::uint32_t) { ring[0] = ring[2]; },
+      [](std::int32_t* ring, std::uint32_t count) { ring[count - 1] = -ring[count - 1]; },
+      [](std::int32_t* ring, std::uint32_t) { ring[1] = -ring[1]; },
+      [](std::int32_t* ring, std::uint32_t) { ring[1] = 0; },
+      [](std::int32_t* ring, std::uint32_t) { ring[1] = 1 << 30; },
+      [](std::int32_t* ring, std::uint32_t count) { std::reverse(ring, ring + count); }};
+  for (const Damage& damage : damages) {
+    DistributedMesh mesh(MPI_COMM_WORLD);
+    ASSERT_EQ(triangulate(mesh, part), 0);
+    std::int64_t damaged = 0;
+    if (rank_of() == size_of() - 1)
+      mesh.own().visit([&](const auto& stars) {
+        const auto ring = stars.of_node[0];
+        if constexpr (sizeof *ring.begin == sizeof(std::int32_t))
+          damage(const_cast<std::int32_t*>(ring.begin), ring.count);
+        damaged = part.numbers[0];
+      });
+    std::uint64_t fingerprint = 77;
+    EXPECT_EQ(mesh.check(&fingerprint), PSTRIPACK_BAD_LISTS);
+    EXPECT_EQ(fingerprint, 77u);
+    EXPECT_GT(mesh.error_point(0), 0);
+    MPI_Allreduce(MPI_IN_PLACE, &damaged, 1, MPI_INT64_T, MPI_MAX, MPI_COMM_WORLD);
+    EXPECT_LE(mesh.error_point(0), damaged);
+  }
+}
+
 TEST(Moving, SurviveMemoryThatRunsOut) {
   const Nodes nodes = point_sets::make("random", 1000, 1);
   Random order(static_cast<std::uint64_t>(rank_of()));

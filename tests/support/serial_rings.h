@@ -117,7 +117,7 @@ Outcome run(const Nodes& nodes, const std::vector<std::size_t>& rank_of_node,
       const Point corners[3] = {nodes[0], nodes[1], nodes[2]};
       Stars<Int> stars = triangulate<Int>(local, check_of_all(local, ranks), corners,
                                           {number(1), number(2), number(3)}, ranks, options, &out.cost[r]);
-      if (is_counted) fetch_halo(stars.outside, local, ranges, ranks);
+      if (is_counted) stars.halo = fetch_halo(stars.outside, local, ranges, ranks);
       const std::lock_guard lock(mutex);
       keep(stars, local, r, name, out);
       homes[r] = std::move(stars.homes);

@@ -4,6 +4,7 @@
 #include <pthread.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <functional>
 #include <thread>
 #include <vector>
@@ -69,10 +70,13 @@ class ThreadRanks {
       });
     }
 
-    pstripack::Parcels all_gather(const void* bytes, std::size_t size) override {
-      const std::pair<const void*, std::size_t> mine(bytes, size);
-      return collect(&mine, [](const void* other) {
-        return *static_cast<const std::pair<const void*, std::size_t>*>(other);
+    void all_gather_in_place(void* all, const std::vector<std::size_t>& begin) override {
+      auto* const to = static_cast<unsigned char*>(all);
+      group_.meet(rank_, all, [&] {
+        for (std::size_t r = 0; r < group_.posted_.size(); ++r)
+          if (r != static_cast<std::size_t>(rank_))
+            std::copy_n(static_cast<const unsigned char*>(group_.posted_[r]) + begin[r],
+                        begin[r + 1] - begin[r], to + begin[r]);
       });
     }
 
@@ -99,6 +103,20 @@ class ThreadRanks {
       if (least < 0) throw pstripack::AgreedFailure(least);
       bytes_sent += static_cast<std::int64_t>(outgoing.begin.back());
       return incoming;
+    }
+
+    void start(const pstripack::Parcels& outgoing, pstripack::Parcels& incoming) override {
+      group_.meet(rank_, &outgoing, [&] {
+        for (std::size_t r = 0; r < group_.posted_.size(); ++r) {
+          const auto& parcels = *static_cast<const pstripack::Parcels*>(group_.posted_[r]);
+          const auto me = static_cast<std::size_t>(rank_);
+          const std::size_t size = parcels.begin[me + 1] - parcels.begin[me];
+          if (size != incoming.begin[r + 1] - incoming.begin[r]) std::abort();
+          std::copy_n(parcels.bytes.data() + parcels.begin[me], size,
+                      incoming.bytes.data() + incoming.begin[r]);
+        }
+      });
+      bytes_sent += static_cast<std::int64_t>(outgoing.begin.back());
     }
 
    private:

@@ -48,11 +48,11 @@ double area_of_cell(const Neighbourhood& nodes, const Directions& directions, st
 /// Areas of the cells of this rank's nodes, then of the halo. Sets the directions of both. Collective.
 std::vector<double> areas_of_cells(pstripack::Communicator& ranks, const Neighbourhood& nodes,
                                    std::optional<Directions>& directions) {
-  const std::size_t own = nodes.stars.count, known = own + nodes.owners.size();
+  const std::size_t own = nodes.stars.count;
   std::vector<double> areas;
   pstripack::in_agreement(ranks, [&] {
-    directions.emplace(nodes.points, known);
-    areas.resize(known);
+    directions.emplace(nodes.points, nodes.known);
+    areas.resize(nodes.known);
     const int threads = pstripack::threads_for(10 * own);
     pstripack::ErrorsOfThreads errors(static_cast<std::size_t>(threads));
     pstripack::parallel_pieces(own, threads, [&](std::size_t first, std::size_t last, int piece) {
@@ -63,8 +63,7 @@ std::vector<double> areas_of_cells(pstripack::Communicator& ranks, const Neighbo
     });
     errors.rethrow();
   });
-  const pstripack::Halo halo(nodes.owners, ranks);
-  halo.fetch<double>(
+  nodes.halo->fetch<double>(
       ranks, [&](pstripack::LocalNode k) { return areas[k]; },
       [&](pstripack::OutsideNode j, double area) { areas[own + index_of(j)] = area; });
   return areas;

@@ -29,7 +29,6 @@ files::MeshPart part_of(Communicator& ranks, const pstripack::scvt::Neighbourhoo
   const auto number = [&](std::int32_t place) { return nodes.numbers[place - 1]; };
   in_agreement_with_caller(ranks, [&] {
     part.nodes = stars.count;
-    const std::size_t known = stars.count + nodes.owners.size();
     for (std::size_t i = 0; i < stars.count; ++i) {
       const std::size_t begin = stars.begin_of(i), end = stars.end_of(i);
       const auto here = static_cast<std::int32_t>(i) + 1;
@@ -40,8 +39,8 @@ files::MeshPart part_of(Communicator& ranks, const pstripack::scvt::Neighbourhoo
           part.corner.insert(part.corner.end(), {here, b, c});
       }
     }
-    part.points.assign(nodes.points, nodes.points + known);
-    part.numbers.assign(nodes.numbers, nodes.numbers + known);
+    part.points.assign(nodes.points, nodes.points + nodes.known);
+    part.numbers.assign(nodes.numbers, nodes.numbers + nodes.known);
   });
   part.share_of_nodes = share_of(ranks, part.nodes);
   part.share_of_triangles = share_of(ranks, part.corner.size() / 3);

@@ -30,12 +30,13 @@ extern "C" {
   CODE(PSTRIPACK_TOO_FEW_NODES, -1, "fewer than three nodes; of generators, fewer than four")              \
   CODE(PSTRIPACK_COLLINEAR, -2,                                                                            \
        "the first three nodes, or all of a distributed mesh, lie on one great circle")                     \
-  CODE(PSTRIPACK_EMPTY_MESH, -3, "the mesh is empty")                                                      \
+  CODE(PSTRIPACK_EMPTY_MESH, -3, "the mesh is empty, or no exchange of its values is under way")           \
   CODE(PSTRIPACK_TOO_MANY_NODES, -4, "too many nodes: 6N-11 does not fit the integers")                    \
   CODE(PSTRIPACK_BAD_COORDINATE, -5, "a coordinate is not finite, or all are zero")                        \
   CODE(PSTRIPACK_OUT_OF_MEMORY, -6, "out of memory")                                                       \
   CODE(PSTRIPACK_RANKS_DISAGREE, -7,                                                                       \
-       "the ranks of a collective call disagree in N, in the coordinates, in PSTRIPACK_ORDER or in root")  \
+       "the ranks of a collective call disagree in N, in the coordinates, in PSTRIPACK_ORDER, in root, "   \
+       "in width, or in what they call")                                                                   \
   CODE(PSTRIPACK_BAD_COMM, -8,                                                                             \
        "not a communicator that can be used: null, freed, an inter-communicator, no such rank, or MPI is " \
        "not running")                                                                                      \

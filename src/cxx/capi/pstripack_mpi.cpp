@@ -149,6 +149,18 @@ std::int32_t told_that(const char* routine, std::int32_t code, const char* text)
 
 constexpr const char* kNotFromHere = "MPI is not running, or must not be called by this thread or process";
 
+/// Whether a rank can begin a collective call of the mesh. If not, writes a line.
+bool can_begin(const pstripack_mesh* mesh, MeshCall call) {
+  const char* const name = kNamesOfCalls[static_cast<int>(call)];
+  if (mesh == nullptr && mpi_is_running()) {
+    told_that(name, PSTRIPACK_EMPTY_MESH, "the mesh is NULL on this rank; others would wait for it");
+    MPI_Abort(MPI_COMM_WORLD, 1);
+  }
+  if (mesh != nullptr && may_call_mpi(mesh->process)) return true;
+  told_that(name, PSTRIPACK_BAD_COMM, kNotFromHere);
+  return false;
+}
+
 struct Text {
   char text[200];
 };
@@ -167,6 +179,30 @@ Text text_of_count(const WrongArgument& n, const char* array_of_n) {
     std::snprintf(line.text, sizeof line.text, "rank %d: xyz is (%lld,%lld): must be (3,n), n the size of %s",
                   n.rank, (shape >> 31) - 1, shape & INT32_MAX, array_of_n);
   return line;
+}
+
+Text text_of_calls(const DistributedMesh& mesh) {
+  Text line;
+  std::snprintf(line.text, sizeof line.text, "some ranks have called %s, others %s",
+                kNamesOfCalls[mesh.begun().first], kNamesOfCalls[mesh.begun().second]);
+  return line;
+}
+
+/// Writes the line of a collective call on rank 0, `text` if it is not empty.
+std::int32_t told_by_rank_0(DistributedMesh& mesh, MeshCall call, std::int32_t code, const Text& text) {
+  const char* const name = kNamesOfCalls[static_cast<int>(call)];
+  if (mesh.rank() != 0) return code;
+  if (mesh.has_begun_different_calls()) return told_that(name, code, text_of_calls(mesh).text);
+  return text.text[0] != 0 ? told_that(name, code, text.text) : told(name, code);
+}
+
+std::int32_t end_exchange(pstripack_mesh* handle, std::int64_t width, void* halo_values, bool is_newest) {
+  if (!can_begin(handle, MeshCall::exchange)) return PSTRIPACK_BAD_COMM;
+  DistributedMesh& mesh = handle->mesh;
+  const std::int32_t code =
+      guarded(mesh.ranks(), [&] { return mesh.end_exchange(width, halo_values, is_newest); });
+  if (code != PSTRIPACK_BAD_SIZE) return told("mesh_exchange_end", code);
+  return told_that("mesh_exchange_end", code, "width is not that with which the exchange has begun");
 }
 
 void end_comm_mode(CommMode& mode) {
@@ -362,11 +398,15 @@ void pstripack_mesh_free(pstripack_mesh* mesh) {
 
 int32_t pstripack_mesh_triangulate(pstripack_mesh* mesh, int64_t n, const double* xyz,
                                    const int64_t* number) {
-  if (!may_call_mpi(mesh->process)) return told_that("mesh_triangulate", PSTRIPACK_BAD_COMM, kNotFromHere);
-  const std::int32_t code = reported(
-      mesh->mesh.ranks(), CallReport::distributed,
-      [&](DistributedMesh::Report* report) { return mesh->mesh.triangulate(n, xyz, number, report); });
-  if (mesh->mesh.ranks().rank() != 0) return code;
+  if (!can_begin(mesh, MeshCall::triangulate)) return PSTRIPACK_BAD_COMM;
+  const std::int32_t code =
+      reported(mesh->mesh.ranks(), CallReport::distributed, [&](DistributedMesh::Report* report) {
+        mesh->mesh.begin(MeshCall::triangulate);
+        return mesh->mesh.triangulate(n, xyz, number, report);
+      });
+  if (mesh->mesh.rank() != 0) return code;
+  if (mesh->mesh.has_begun_different_calls())
+    return told_that("mesh_triangulate", code, text_of_calls(mesh->mesh).text);
   if (const WrongArgument& n = mesh->mesh.wrong_argument(); n.rank >= 0)
     return told_that("mesh_triangulate", code, text_of_count(n, "number").text);
   const auto first = static_cast<long long>(mesh->mesh.error_point(0)),
@@ -424,32 +464,72 @@ int32_t pstripack_mesh_local_stars(const pstripack_mesh* mesh, int64_t* begin, i
 
 int32_t pstripack_mesh_gather(pstripack_mesh* mesh, int32_t root, int32_t* list, int32_t* lptr, int32_t* lend,
                               int32_t* lnew) {
-  if (!may_call_mpi(mesh->process)) return told_that("mesh_gather", PSTRIPACK_BAD_COMM, kNotFromHere);
+  if (!can_begin(mesh, MeshCall::gather)) return PSTRIPACK_BAD_COMM;
   const std::int32_t code =
       reported(mesh->mesh.ranks(), CallReport::distributed_gather, [&](DistributedMesh::Report* report) {
+        mesh->mesh.begin(MeshCall::gather);
         return mesh->mesh.gather(root, {list, lptr, lend, lnew}, report);
       });
-  if (mesh->mesh.ranks().rank() != 0) return code;
-  Text line;
+  Text line{};
   if (const WrongArgument& other = mesh->mesh.wrong_argument(); code == PSTRIPACK_RANKS_DISAGREE)
     std::snprintf(line.text, sizeof line.text, "root is %d on rank 0 and %d on rank %d",
                   static_cast<int>(root), static_cast<int>(other.value), other.rank);
   else if (code == PSTRIPACK_BAD_COMM)
     std::snprintf(line.text, sizeof line.text, "there is no rank %d", static_cast<int>(root));
-  else
-    return told("mesh_gather", code);
-  return told_that("mesh_gather", code, line.text);
+  return told_by_rank_0(mesh->mesh, MeshCall::gather, code, line);
+}
+
+int32_t pstripack_mesh_exchange(pstripack_mesh* mesh, const void* values, int64_t width, void* halo_values) {
+  const std::int32_t code = pstripack_mesh_exchange_begin(mesh, values, width);
+  return code != 0 ? code : end_exchange(mesh, width, halo_values, true);
+}
+
+int32_t pstripack_mesh_exchange_begin(pstripack_mesh* handle, const void* values, int64_t width) {
+  if (!can_begin(handle, MeshCall::exchange)) return PSTRIPACK_BAD_COMM;
+  DistributedMesh& mesh = handle->mesh;
+  const std::int32_t code = guarded(mesh.ranks(), [&] { return mesh.begin_exchange(values, width); });
+  const WrongArgument& other = mesh.wrong_argument();
+  const auto wrong = static_cast<long long>(other.value);
+  Text line{};
+  if (code == PSTRIPACK_BAD_SIZE)
+    std::snprintf(line.text, sizeof line.text, "rank %d: width = %lld is below 1", other.rank, wrong);
+  else if (code == PSTRIPACK_RANKS_DISAGREE)
+    std::snprintf(line.text, sizeof line.text, "width is %lld on rank 0 and %lld on rank %d",
+                  static_cast<long long>(width), wrong, other.rank);
+  return told_by_rank_0(mesh, MeshCall::exchange, code, line);
+}
+
+int32_t pstripack_mesh_exchange_end(pstripack_mesh* mesh, int64_t width, void* halo_values) {
+  return end_exchange(mesh, width, halo_values, false);
+}
+
+int32_t pstripack_mesh_check(pstripack_mesh* mesh, uint64_t* fingerprint) {
+  if (!can_begin(mesh, MeshCall::check)) return PSTRIPACK_BAD_COMM;
+  const std::int32_t code = guarded(mesh->mesh.ranks(), [&] { return mesh->mesh.check(fingerprint); });
+  Text line{};
+  if (const auto point = static_cast<long long>(mesh->mesh.error_point(0)); code == PSTRIPACK_BAD_LISTS)
+    std::snprintf(line.text, sizeof line.text,
+                  point != 0 ? "point %lld: its star is no cycle, or not that of its neighbours"
+                             : "the triangles do not cover one sphere or disc",
+                  point);
+  return told_by_rank_0(mesh->mesh, MeshCall::check, code, line);
 }
 
 int32_t pstripack_mesh_scvt(pstripack_mesh* handle, int64_t n, double* xyz, const int64_t* number,
                             const pstripack_density* density, const pstripack_scvt_options* options,
                             pstripack_scvt_result* result, char* message, int32_t length) {
+  if (handle == nullptr) can_begin(handle, MeshCall::scvt);
   DistributedMesh& mesh = handle->mesh;
   MpiCommunicator& ranks = mesh.ranks();
   if (!may_call_mpi(handle->process))
     return guarded_scvt(message, length, [] { throw Refusal{PSTRIPACK_BAD_COMM, kNotFromHere}; });
   const std::int32_t code = guarded_scvt(message, length, [&] {
     abort_without_memory(ranks, [&] {
+      try {
+        mesh.begin(MeshCall::scvt);
+      } catch (const AgreedFailure& failure) {
+        throw Refusal{failure.code, text_of_calls(mesh).text};
+      }
       const pstripack_scvt_options chosen = checked_by_all(ranks, options);
       StartOfRun start(ranks, n, xyz, number, chosen);
       const DensityOfCaller values(density, chosen.widths != 0);

@@ -46,7 +46,9 @@ PSTRIPACK_API void pstripack_set_comm__(const MPI_Fint* comm); /* as -fsecond-un
 
 /* A distributed mesh: points that stay on their ranks, and the stars of each rank's own points. Its
  * collective functions return -8, having done nothing, where MPI must not be called: after MPI_Finalize, in a
- * forked child, and in threads other than MPI's first, unless MPI provides MPI_THREAD_SERIALIZED. */
+ * forked child, and in threads other than MPI's first, unless MPI provides MPI_THREAD_SERIALIZED. If ranks
+ * call different ones, all get -7, and the mesh is empty. If a rank passes NULL for a mesh, which the others
+ * would wait for, the job ends, with a line on stderr. */
 typedef struct pstripack_mesh pstripack_mesh;
 
 /* Creates an empty mesh over a duplicate of comm; *mesh = NULL on an error. Collective. Returns 0, -6 or
@@ -70,8 +72,9 @@ PSTRIPACK_API void pstripack_mesh_free(pstripack_mesh* mesh);
 PSTRIPACK_API int32_t pstripack_mesh_triangulate(pstripack_mesh* mesh, int64_t n, const double* xyz,
                                                  const int64_t* number);
 
-/* After -5, -9, -10: the global numbers of the points that the error is about, the smallest such; *second
- * is 0 if there is only one. The same on every rank. After any other code both are 0. Not collective. */
+/* After -5, -9, -10, -13: the global numbers of the points that the error is about, the smallest such;
+ * *second is 0 if there is only one. The same on every rank. After any other code both are 0. Not collective.
+ */
 PSTRIPACK_API void pstripack_mesh_error_points(const pstripack_mesh* mesh, int64_t* first, int64_t* second);
 
 /* Sets rank[i], i = 0..n-1, to the rank (from 0) that should own the point xyz[3i..3i+2], so that each
@@ -114,6 +117,32 @@ PSTRIPACK_API void pstripack_mesh_halo_owners(const pstripack_mesh* mesh, int32_
  * of pstripack_mesh_halo. Otherwise as pstripack_mesh_stars. Not collective. Returns 0. */
 PSTRIPACK_API int32_t pstripack_mesh_local_stars(const pstripack_mesh* mesh, int64_t* begin,
                                                  int32_t* neighbour);
+
+/* Sends values of points to the ranks that have the points in their halo. Collective.
+ *   values       in: width * points values of 8 bytes, doubles or integers, point after point (Fortran:
+ *                values(width, points))
+ *   width        number of values a point, at least 1, the same on every rank
+ *   halo_values  out: width * halo values, in the order of pstripack_mesh_halo
+ * Since the triangulation every rank knows what travels: nothing is agreed on but width. Returns 0, -3 (empty
+ * mesh), -6, -7 (another width on some rank), -8 or -100 (width < 1 on some rank). After an error nothing is
+ * written. */
+PSTRIPACK_API int32_t pstripack_mesh_exchange(pstripack_mesh* mesh, const void* values, int64_t width,
+                                              void* halo_values);
+
+/* The same in two parts, with other work between them. _begin copies the values and starts to send them; it
+ * is collective, with the codes above. _end waits for the values of the oldest exchange under way and writes
+ * them. Every rank calls it; on a rank with another width it returns -100, and -3 if no exchange is under
+ * way. Any number may be under way. A triangulation, a tessellation or the end of the mesh ends them without
+ * values. */
+PSTRIPACK_API int32_t pstripack_mesh_exchange_begin(pstripack_mesh* mesh, const void* values, int64_t width);
+PSTRIPACK_API int32_t pstripack_mesh_exchange_end(pstripack_mesh* mesh, int64_t width, void* halo_values);
+
+/* Compares the stars of all ranks with each other: every star is a cycle, every triangle stands in the stars
+ * of its three corners, and all triangles cover one sphere or disc (Euler's formula). Collective. fingerprint
+ * out, may be NULL: a hash of 64 bits that depends on the set of triangles alone. If the numbers are 1..N,
+ * that of pstripack_fingerprint Returns 0, -3 (empty mesh), -6, -8, or -13: then pstripack_mesh_error_points
+ * tells the smallest number of a point with a wrong star, 0 if only Euler's formula fails. */
+PSTRIPACK_API int32_t pstripack_mesh_check(pstripack_mesh* mesh, uint64_t* fingerprint);
 
 /* Gathers the canonical lists of the whole mesh on rank `root`, or on every rank if root = -1. The global
  * numbers must be 1..N, where N is the number of all points. list, lptr (6N-12 entries), lend (N entries),

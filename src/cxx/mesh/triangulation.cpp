@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "base/splitmix64.h"
-
 namespace pstripack {
 namespace {
 
@@ -21,14 +19,13 @@ void make_canonical(Triangles& triangles) {
 }
 
 std::uint64_t fingerprint(const Triangle* triangles, std::size_t count) {
-  std::uint64_t sum = splitmix64(count);
+  std::uint64_t hashes = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const Triangle t = smallest_first(triangles[i]);
-    std::uint64_t h = 0x9e3779b97f4a7c15u;
-    for (const index_t v : t) h = splitmix64(h + static_cast<std::uint32_t>(v));
-    sum += h;
+    const auto corner = [&](std::size_t k) { return static_cast<std::uint32_t>(t[k]); };
+    hashes += hash_of_triangle(corner(0), corner(1), corner(2));
   }
-  return splitmix64(sum);
+  return fingerprint_of(hashes, count);
 }
 
 }  // namespace pstripack

@@ -65,7 +65,8 @@ Neighbourhood DistributedEvaluator::triangulate(const std::vector<Point>& genera
         here = {points_.data(),
                 numbers_.data(),
                 {own_, end_.data(), neighbour_.data()},
-                addresses_of(stars.outside(), stars.ranges())};
+                points_.size(),
+                &stars.halo()};
         have_boundary.value =
             std::any_of(neighbour_.begin(), neighbour_.end(), [](std::int32_t node) { return node < 0; });
       },

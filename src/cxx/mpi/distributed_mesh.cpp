@@ -1,6 +1,8 @@
 #include "mpi/distributed_mesh.h"
 
 #include <algorithm>
+#include <cstring>
+#include <new>
 #include <numeric>
 #include <utility>
 
@@ -14,12 +16,18 @@
 #include "parallel/ring_parcels.h"
 
 namespace pstripack {
+namespace {
+
+constexpr std::size_t kValueBytes = 8;  ///< of a double, and of an integer that travels
+
+}  // namespace
 
 void DistributedMesh::clear() {
   error_point_[0] = error_point_[1] = 0;
   wrong_argument_ = {};
   total_ = 0;
   is_reported_ = false;
+  end_exchanges();
   own_ = {};
   next_.moving.take();
   next_.sample.reset();
@@ -32,6 +40,7 @@ std::int32_t DistributedMesh::triangulate(std::int64_t n, const double* xyz, con
   static_assert(sizeof(Point) == 3 * sizeof(double));
   const LocalNodes points{reinterpret_cast<const Point*>(xyz), static_cast<std::size_t>(n), number};
   const std::int64_t sent_before = ranks_.bytes_sent;
+  end_exchanges();
   ParallelCost mine;
   std::int32_t code = 0;
   try {
@@ -120,7 +129,7 @@ std::int32_t DistributedMesh::triangulate_into(const LocalNodes& points, const N
       // No memory: the next call is cold, too.
     }
   }
-  fetch_halo(stars.outside, points, ranges, ranks_);
+  stars.halo = fetch_halo(stars.outside, points, ranges, ranks_);
   in_agreement(ranks_, [&] { own_ = OwnStars(std::move(numbers), ranges, me, std::move(stars)); });
   return 0;
 }
@@ -289,6 +298,61 @@ std::int32_t DistributedMesh::gather(std::int32_t root, const ListArrays& lists,
   report_on(mine, sent_before, report);
   ranks_.set_phase("idle");
   return code;
+}
+
+std::int32_t DistributedMesh::begin_exchange(const void* values, std::int64_t width) {
+  const auto* const bytes = static_cast<const unsigned char*>(values);
+  wrong_argument_ = {};
+  Halo::Transfer made;
+  Outcome outcome = Outcome::of([&] {
+    if (empty() || width < 1) return;
+    if (width > static_cast<std::int64_t>(PTRDIFF_MAX / kValueBytes)) throw std::bad_alloc();
+    made = own_.halo().transfer(static_cast<std::size_t>(width) * kValueBytes, ranks_);
+    exchanges_.reserve(exchanges_.size() + 1);
+  });
+  Smallest least{width};
+  Largest most{width};
+  begin(MeshCall::exchange, outcome, least, most);
+  if (empty()) return PSTRIPACK_EMPTY_MESH;
+  if (least.value < 1 || least.value != most.value) {
+    const std::int64_t* const of_rank = ranks_.all_gather_one(width);
+    int rank = 0;
+    while (least.value < 1 ? of_rank[rank] > 0 : of_rank[rank] == of_rank[0]) ++rank;
+    wrong_argument_ = {rank, of_rank[rank]};
+    return least.value < 1 ? PSTRIPACK_BAD_SIZE : PSTRIPACK_RANKS_DISAGREE;
+  }
+  outcome.accept();
+  exchanges_.push_back(std::move(made));
+  Halo::Transfer& transfer = exchanges_.back();
+  own_.halo().start(ranks_, transfer, [&](LocalNode k, void* to) {
+    std::memcpy(to, bytes + k * transfer.bytes, transfer.bytes);
+  });
+  return 0;
+}
+
+std::int32_t DistributedMesh::end_exchange(std::int64_t width, void* halo_values, bool is_newest) {
+  if (exchanges_.empty()) return PSTRIPACK_EMPTY_MESH;
+  const auto exchange = is_newest ? exchanges_.end() - 1 : exchanges_.begin();
+  const std::size_t bytes = exchange->bytes;
+  if (width != static_cast<std::int64_t>(bytes / kValueBytes)) return PSTRIPACK_BAD_SIZE;
+  own_.halo().finish(ranks_, *exchange, [&](OutsideNode j, const void* from) {
+    std::memcpy(static_cast<unsigned char*>(halo_values) + index_of(j) * bytes, from, bytes);
+  });
+  exchanges_.erase(exchange);
+  return 0;
+}
+
+std::int32_t DistributedMesh::check(std::uint64_t* fingerprint) {
+  begin(MeshCall::check);
+  ranks_.set_phase("check the stars");
+  error_point_[0] = error_point_[1] = 0;
+  if (empty()) return PSTRIPACK_EMPTY_MESH;
+  const OwnStars::Checked found = own_.check(ranks_);
+  ranks_.set_phase("idle");
+  if (found.wrong.exists()) error_point_[0] = found.wrong.value;
+  if (found.wrong.exists() || !found.is_sphere_or_disc) return PSTRIPACK_BAD_LISTS;
+  if (fingerprint != nullptr) *fingerprint = found.fingerprint;
+  return 0;
 }
 
 std::int32_t DistributedMesh::gather_stars(std::int32_t root, const ListArrays& lists) {

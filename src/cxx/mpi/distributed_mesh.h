@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "base/cached.h"
 #include "mpi/mpi_communicator.h"
@@ -18,6 +20,11 @@
 
 namespace pstripack {
 
+/// The collective functions of the C API.
+enum class MeshCall : int { triangulate, gather, scvt, exchange, check };
+constexpr const char* kNamesOfCalls[] = {"mesh_triangulate", "mesh_gather", "mesh_scvt", "mesh_exchange",
+                                         "mesh_check"};
+
 /// See capi/pstripack_mpi.h for the meaning of the members. Those marked "Collective" throw AgreedFailure,
 /// having changed none of the caller's arrays.
 class DistributedMesh {
@@ -27,6 +34,31 @@ class DistributedMesh {
 
   MpiCommunicator& ranks() { return ranks_; }
   int rank() const { return ranks_.rank(); }
+
+  /// Begins a call: the messages of different calls never match. If not all ranks begin the same, the mesh
+  /// becomes empty and all throw. The same message agrees on the votes. Collective. Throws AgreedFailure.
+  template <class... Votes>
+  void begin(MeshCall call, Votes&... votes) {
+    constexpr std::size_t kValues = 8;  // the same number in all calls
+    static_assert(2 + sizeof...(Votes) <= kValues);
+    Smallest first{static_cast<std::int64_t>(call)};
+    Largest last{first.value};
+    std::int64_t values[kValues] = {first.encode(), last.encode(), votes.encode()...};
+    ranks_.set_tag(0);
+    ranks_.all_min(values, kValues);
+    ranks_.set_tag(1 + static_cast<int>(call));
+    const std::int64_t* value = values;
+    first.decode(*value++), last.decode(*value++);
+    begun_ = {static_cast<int>(first.value), static_cast<int>(last.value)};
+    if (has_begun_different_calls()) {
+      make_empty();
+      throw AgreedFailure(PSTRIPACK_RANKS_DISAGREE);
+    }
+    (votes.decode(*value++), ...);
+  }
+  /// After begin(): the calls, the first and the last of MeshCall.
+  std::pair<int, int> begun() const { return begun_; }
+  bool has_begun_different_calls() const { return begun_.first != begun_.second; }
 
   struct Report {
     std::int64_t points = 0, boundary_points = 0;  ///< of all ranks; 0 if not known
@@ -62,6 +94,15 @@ class DistributedMesh {
   static constexpr std::int32_t kEveryRank = -1;
   std::int32_t gather(std::int32_t root, const ListArrays& lists, Report* report = nullptr);
 
+  /// Begins to send `width` values of 8 bytes of each point here to the ranks that have it in their halo. All
+  /// ranks pass the same width. Returns the result code. Collective.
+  std::int32_t begin_exchange(const void* values, std::int64_t width);
+  /// Waits for the values of an exchange under way, the oldest or the newest, and writes them. Returns
+  /// PSTRIPACK_EMPTY_MESH if there is none, PSTRIPACK_BAD_SIZE if it has another width.
+  std::int32_t end_exchange(std::int64_t width, void* halo_values, bool is_newest);
+  /// Compares the stars with each other. Returns the result code. Collective.
+  std::int32_t check(std::uint64_t* fingerprint);
+
  private:
   std::int32_t triangulate_points(const LocalNodes& points, bool numbers_are_known, Report* report,
                                   ParallelCost& cost);
@@ -81,8 +122,15 @@ class DistributedMesh {
   std::int32_t gather_stars(std::int32_t root, const ListArrays& lists);
   void report_on(ParallelCost& mine, std::int64_t sent_before, Report* report);
   void clear();
+  /// Without writing values.
+  void end_exchanges() {
+    if (!exchanges_.empty()) ranks_.finish();
+    exchanges_.clear();
+  }
 
-  MpiCommunicator ranks_;
+  std::vector<Halo::Transfer> exchanges_;  ///< under way, in the order in which they have begun
+  MpiCommunicator ranks_;                  ///< waits for them when it is destroyed
+  std::pair<int, int> begun_{0, 0};
   bool by_direction_ = false;  ///< in this call of triangulate()
   std::int64_t error_point_[2] = {0, 0};
   WrongArgument wrong_argument_;

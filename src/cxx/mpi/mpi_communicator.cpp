@@ -20,8 +20,6 @@
 namespace pstripack {
 namespace {
 
-constexpr int kTag = 0;
-
 /// While an object of this class exists, MPI returns errors about invalid communicators instead of ending
 /// the job. Such errors are raised on MPI_COMM_WORLD, from MPI 4 on on MPI_COMM_SELF.
 class NoAbort {
@@ -57,6 +55,8 @@ bool is_usable(MPI_Comm comm) {
   int is_inter = 0;
   return MPI_Comm_test_inter(comm, &is_inter) == MPI_SUCCESS && !is_inter;
 }
+
+std::size_t size_of(const Parcels& parcels, std::size_t r) { return parcels.begin[r + 1] - parcels.begin[r]; }
 
 double processor_seconds() { return clock_seconds(CLOCK_THREAD_CPUTIME_ID); }
 
@@ -119,7 +119,9 @@ MpiCommunicator::MpiCommunicator(MPI_Comm comm, std::size_t longest_message, std
 MpiCommunicator::~MpiCommunicator() {
   int finalised = 0;
   MPI_Finalized(&finalised);
-  if (!finalised) MPI_Comm_free(&comm_);
+  if (finalised) return;
+  finish();
+  MPI_Comm_free(&comm_);
 }
 
 /// True if this machine has more ranks of the communicator than processors that any of them may use.
@@ -185,9 +187,9 @@ void MpiCommunicator::send_and_receive(const void* out, std::size_t out_size, in
       return static_cast<int>(length);
     };
     if (at < in_size)
-      check(MPI_Irecv(incoming + at, part(in_size), MPI_BYTE, from, kTag, comm_, &requests[count++]));
+      check(MPI_Irecv(incoming + at, part(in_size), MPI_BYTE, from, tag_, comm_, &requests[count++]));
     if (at < out_size)
-      check(MPI_Isend(outgoing + at, part(out_size), MPI_BYTE, to, kTag, comm_, &requests[count++]));
+      check(MPI_Isend(outgoing + at, part(out_size), MPI_BYTE, to, tag_, comm_, &requests[count++]));
     wait(requests, count, bytes);
   }
 }
@@ -280,9 +282,9 @@ void MpiCommunicator::exchange_sizes(const std::int64_t* out) {
     const std::size_t bytes = (1 + leaving) * sizeof(Routed);
     MPI_Request requests[2];
     check(MPI_Irecv(arriving_.data(), static_cast<int>(arriving_.size() * sizeof(Routed)), MPI_BYTE,
-                    below(static_cast<int>(distance)), kTag, comm_, &requests[0]));
+                    below(static_cast<int>(distance)), tag_, comm_, &requests[0]));
     check(MPI_Isend(leaving_.data(), static_cast<int>(bytes), MPI_BYTE, above(static_cast<int>(distance)),
-                    kTag, comm_, &requests[1]));
+                    tag_, comm_, &requests[1]));
     wait(requests, 2, bytes);
     const auto arrived = static_cast<std::size_t>(arriving_[0].above);
     std::copy_n(arriving_.data() + 1, arrived, moving_.data() + staying);
@@ -293,21 +295,6 @@ void MpiCommunicator::exchange_sizes(const std::int64_t* out) {
     sizes_[(me + ranks - static_cast<std::size_t>(moving_[i].above)) % ranks] = moving_[i].value;
 }
 
-Parcels MpiCommunicator::all_gather(const void* bytes, std::size_t size) {
-  const auto ranks = static_cast<std::size_t>(size_), me = static_cast<std::size_t>(rank_);
-  all_gather_one(static_cast<std::int64_t>(size));
-  Parcels all;
-  in_agreement(*this, [&] {
-    all.begin.resize(ranks + 1);
-    for (std::size_t r = 0; r < ranks; ++r)
-      all.begin[r + 1] = all.begin[r] + static_cast<std::size_t>(sizes_[r]);
-    all.bytes = Block(all.begin[ranks]);
-  });
-  if (size > 0) std::memcpy(all.bytes.data() + all.begin[me], bytes, size);
-  all_gather_in_place(all.bytes.data(), all.begin);
-  return all;
-}
-
 void MpiCommunicator::all_gather_in_place(void* all, const std::vector<std::size_t>& begin) {
   const auto ranks = static_cast<std::size_t>(size_), me = static_cast<std::size_t>(rank_);
   bytes_sent += static_cast<std::int64_t>((begin[me + 1] - begin[me]) * (ranks - 1));
@@ -315,42 +302,47 @@ void MpiCommunicator::all_gather_in_place(void* all, const std::vector<std::size
 }
 
 Parcels MpiCommunicator::exchange(const Parcels& outgoing, std::int32_t code) {
-  const auto ranks = static_cast<std::size_t>(size_), me = static_cast<std::size_t>(rank_);
+  const auto ranks = static_cast<std::size_t>(size_);
   for (std::size_t r = 0; r < ranks; ++r)
-    other_sizes_[r] = code != 0 ? code : static_cast<std::int64_t>(outgoing.begin[r + 1] - outgoing.begin[r]);
+    other_sizes_[r] = code != 0 ? code : static_cast<std::int64_t>(size_of(outgoing, r));
   exchange_sizes(other_sizes_.data());
   const std::int64_t least = *std::min_element(sizes_.begin(), sizes_.end());
   if (least < 0) throw AgreedFailure(static_cast<std::int32_t>(least));
 
   Parcels incoming;
   in_agreement(*this, [&] {
-    std::size_t messages = 0;
     incoming.begin.resize(ranks + 1);
-    for (std::size_t r = 0; r < ranks; ++r) {
+    for (std::size_t r = 0; r < ranks; ++r)
       incoming.begin[r + 1] = incoming.begin[r] + static_cast<std::size_t>(sizes_[r]);
-      messages += messages_for(static_cast<std::size_t>(sizes_[r])) +
-                  messages_for(static_cast<std::size_t>(other_sizes_[r]));
-    }
-    incoming.bytes = Block(incoming.begin[ranks]);
-    under_way_.reserve(messages);
+    make_room(outgoing, incoming);
   });
+  start(outgoing, incoming);
+  finish();
+  return incoming;
+}
 
-  const auto part = [&](std::size_t r) { return static_cast<std::size_t>(other_sizes_[r]); };
+void MpiCommunicator::make_room(const Parcels& outgoing, Parcels& incoming) {
+  std::size_t messages = under_way_.size();
+  for (std::size_t r = 0; r < sizes_.size(); ++r)
+    messages += messages_for(size_of(outgoing, r)) + messages_for(size_of(incoming, r));
+  Communicator::make_room(outgoing, incoming);
+  under_way_.reserve(messages);
+}
+
+void MpiCommunicator::start(const Parcels& outgoing, Parcels& incoming) {
+  const auto ranks = static_cast<std::size_t>(size_), me = static_cast<std::size_t>(rank_);
+  auto* const out = const_cast<unsigned char*>(outgoing.bytes.data());
   for (std::size_t step = 1; step < ranks; ++step) {
     const std::size_t from = (me + ranks - step) % ranks;
-    post(Way::in, incoming.bytes.data() + incoming.begin[from],
-         incoming.begin[from + 1] - incoming.begin[from], static_cast<int>(from));
+    post(Way::in, incoming.bytes.data() + incoming.begin[from], size_of(incoming, from),
+         static_cast<int>(from));
   }
   for (std::size_t step = 1; step < ranks; ++step) {  // each rank begins with another one, to spread the load
     const std::size_t to = (me + step) % ranks;
-    post(Way::out, const_cast<unsigned char*>(outgoing.bytes.data()) + outgoing.begin[to], part(to),
-         static_cast<int>(to));
+    post(Way::out, out + outgoing.begin[to], size_of(outgoing, to), static_cast<int>(to));
   }
-  if (part(me) > 0)
-    std::memcpy(incoming.bytes.data() + incoming.begin[me], outgoing.bytes.data() + outgoing.begin[me],
-                part(me));
-  finish();
-  return incoming;
+  if (size_of(outgoing, me) > 0)
+    std::memcpy(incoming.bytes.data() + incoming.begin[me], out + outgoing.begin[me], size_of(outgoing, me));
 }
 
 void MpiCommunicator::broadcast(void* bytes, std::size_t size, int root) {
@@ -375,8 +367,8 @@ void MpiCommunicator::post(Way way, void* bytes, std::size_t size, int other) {
     auto* const begin = static_cast<unsigned char*>(bytes) + at;
     const auto length = static_cast<int>(std::min(longest_message_, size - at));
     MPI_Request* const request = &under_way_.emplace_back();
-    check(way == Way::out ? MPI_Isend(begin, length, MPI_BYTE, other, kTag, comm_, request)
-                          : MPI_Irecv(begin, length, MPI_BYTE, other, kTag, comm_, request));
+    check(way == Way::out ? MPI_Isend(begin, length, MPI_BYTE, other, tag_, comm_, request)
+                          : MPI_Irecv(begin, length, MPI_BYTE, other, tag_, comm_, request));
   }
 }
 

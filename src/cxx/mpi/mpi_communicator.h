@@ -35,20 +35,20 @@ class MpiCommunicator : public Communicator {
   int size() const override { return size_; }
   void all_min(std::int64_t* values, std::size_t count) override;
   void all_sum(std::int64_t* values, std::size_t count) override;
-  Parcels all_gather(const void* bytes, std::size_t size) override;
+  void all_gather_in_place(void* all, const std::vector<std::size_t>& begin) override;
   const std::int64_t* all_gather_one(std::int64_t value) override;
   Parcels exchange(const Parcels& outgoing, std::int32_t code = 0) override;
-
-  /// Every rank gets all of `all`, of which rank r brings the bytes [begin[r], begin[r+1]) in place.
-  /// Collective. Allocates nothing.
-  void all_gather_in_place(void* all, const std::vector<std::size_t>& begin);
+  void make_room(const Parcels& outgoing, Parcels& incoming) override;
+  void start(const Parcels& outgoing, Parcels& incoming) override;
+  void finish() override;
 
   /// Copies `bytes` of rank `root` to every rank. Collective. Allocates nothing.
   void broadcast(void* bytes, std::size_t size, int root);
 
   /// Starts to send each other rank r the bytes [begin[r], begin[r+1]) of `all` on `root`. `all` and `begin`
   /// are used on `root` only; mine: where this rank's `size` bytes go if it is another one. The arrays must
-  /// stay valid and unchanged until finish(). Collective. Allocates nothing.
+  /// stay valid and unchanged until finish(), and no other member may be called before. Collective. Allocates
+  /// nothing.
   void start_scatter(const void* all, const std::vector<std::size_t>& begin, void* mine, std::size_t size,
                      int root) {
     start(Way::out, const_cast<void*>(all), begin, mine, size, root);
@@ -59,14 +59,13 @@ class MpiCommunicator : public Communicator {
                     int root) {
     start(Way::in, all, begin, const_cast<void*>(mine), size, root);
   }
-  /// Waits until all that this rank has started is done. Between the first start and finish() no other
-  /// member may be called.
-  void finish();
 
   void set_phase(const char* phase) override {
     phase_ = phase;
     if (phase_place_ != nullptr) *phase_place_ = phase;
   }
+  /// Messages from now on, on all ranks; at first 0. Messages with different tags never match. At most 32767.
+  void set_tag(int tag) { tag_ = tag; }
   /// From now on the phase is also stored in *place; null: no longer.
   void show_phase_in(const char* volatile* place) { phase_place_ = place; }
   MPI_Comm handle() const { return comm_; }
@@ -102,7 +101,7 @@ class MpiCommunicator : public Communicator {
   };
 
   MPI_Comm comm_ = MPI_COMM_NULL;
-  int rank_ = 0, size_ = 1;
+  int rank_ = 0, size_ = 1, tag_ = 0;
   std::size_t longest_message_;
   bool crowded_ = false;
   const char* phase_ = "idle";

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/workspace.h"
+#include "parallel/agreement.h"
 #include "parallel/node_ranges.h"
 #include "parallel/number_table.h"
 #include "parallel/return_rings.h"
@@ -49,6 +50,11 @@ class OwnStars {
     return *visit([](const auto& stars) { return &stars.outside; });
   }
 
+  /// Exchanges values of outside().
+  const Halo& halo() const {
+    return *visit([](const auto& stars) { return &stars.halo; });
+  }
+
   /// Calls body(i, count, write) for each point: it has `count` neighbours, and write(out) writes their
   /// global numbers as they would stand in LIST.
   template <class Body>
@@ -59,6 +65,15 @@ class OwnStars {
   }
 
   // The queries of capi/pstripack_mpi.h. Not collective.
+  /// What check() finds; the same on every rank.
+  struct Checked {
+    Smallest wrong;  ///< the smallest number of a point whose star is no cycle or does not fit the others
+    bool is_sphere_or_disc = false;
+    std::uint64_t fingerprint = 0;  ///< that of the triangles, by number from 0
+  };
+  /// Compares the stars of all ranks with each other. Collective. Throws AgreedFailure.
+  Checked check(Communicator& ranks) const;
+
   std::int64_t boundary_points() const;
   std::int64_t triangles() const;
   void stars(std::int64_t* begin, std::int64_t* neighbour) const;
@@ -80,6 +95,8 @@ class OwnStars {
   }
   template <class Visit>
   void for_each_triangle(const Visit& visit) const;
+  template <class Int>
+  bool is_cycle(std::size_t i, const Ring<Int>& ring, std::vector<std::int64_t>& sorted) const;
   void find_outside();
 
   /// Which node a counted number is: the points here, then those outside.

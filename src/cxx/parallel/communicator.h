@@ -44,7 +44,10 @@ class Communicator {
   virtual void all_sum(std::int64_t* values, std::size_t count) = 0;
 
   /// Every rank gets the bytes of all ranks, in the order of the ranks.
-  virtual Parcels all_gather(const void* bytes, std::size_t size) = 0;
+  Parcels all_gather(const void* bytes, std::size_t size);
+  /// The same where every rank knows how many: `all` gets all of them, of which rank r brings [begin[r],
+  /// begin[r+1]) in place. Allocates nothing.
+  virtual void all_gather_in_place(void* all, const std::vector<std::size_t>& begin) = 0;
   /// The values of all ranks, in their order; valid until the next call of any member. Allocates nothing.
   virtual const std::int64_t* all_gather_one(std::int64_t value) = 0;
 
@@ -52,6 +55,18 @@ class Communicator {
   /// that passes the code of a failure (< 0) sends nothing; every rank then throws AgreedFailure with the
   /// most negative code.
   virtual Parcels exchange(const Parcels& outgoing, std::int32_t code = 0) = 0;
+
+  /// Allocates the bytes of `incoming`, whose `begin` tells what each rank sends here, and what start() needs
+  /// for these parcels. Not collective. Throws std::bad_alloc.
+  virtual void make_room(const Parcels& outgoing, Parcels& incoming) {
+    (void)outgoing;
+    incoming.bytes = Block(incoming.begin.back());
+  }
+  /// Starts to send every rank its parcel of `outgoing`, which fills that of this rank in `incoming` there.
+  /// The bytes of both must stay as they are until finish(). Needs make_room(). Allocates nothing.
+  virtual void start(const Parcels& outgoing, Parcels& incoming) = 0;
+  /// Waits for all that this rank has started. Not collective.
+  virtual void finish() {}
 
   /// Tells what this rank does now, for the report if the rank is lost. The text must be a literal. Not
   /// collective.
@@ -71,12 +86,13 @@ class SingleProcess : public Communicator {
   int size() const override { return 1; }
   void all_min(std::int64_t*, std::size_t) override {}
   void all_sum(std::int64_t*, std::size_t) override {}
-  Parcels all_gather(const void* bytes, std::size_t size) override;
+  void all_gather_in_place(void*, const std::vector<std::size_t>&) override {}
   const std::int64_t* all_gather_one(std::int64_t value) override {
     value_ = value;
     return &value_;
   }
   Parcels exchange(const Parcels& outgoing, std::int32_t code) override;
+  void start(const Parcels& outgoing, Parcels& incoming) override;
 
  private:
   std::int64_t value_ = 0;

@@ -41,16 +41,18 @@ GlobalSample sample_of_all(const LocalNodes& nodes, Communicator& ranks, const P
                            Division& division) {
   const auto me = static_cast<RankNumber>(ranks.rank());
   const Homes* const last = options.last;
-  const Headcount here{nodes.count, options.patches,
-                       last != nullptr && last->are_home_to(nodes, ranks.rank())};
-  const Parcels heads = ranks.all_gather(&here, sizeof here);
+  std::vector<Headcount> heads;
+  std::vector<std::size_t> begin;  // bytes of each rank
+  in_agreement(ranks, [&] {
+    heads.resize(static_cast<std::size_t>(ranks.size()));
+    for (RankNumber r = 0; r <= heads.size(); ++r) begin.push_back(r * sizeof(Headcount));
+  });
+  heads[me] = {nodes.count, options.patches, last != nullptr && last->are_home_to(nodes, ranks.rank())};
+  ranks.all_gather_in_place(heads.data(), begin);
   GlobalSample sample;
-  std::vector<SentNode> mine;
   in_agreement(ranks, [&] {
     bool are_at_home = last != nullptr;
-    std::size_t before = 0;  // nodes of the ranks before this one
-    for (const Headcount& head : Items<Headcount>(heads)) {
-      if (division.patches.ranks() == me) before = division.nodes;
+    for (const Headcount& head : heads) {
       division.patches.add(head.patches);
       division.nodes += head.nodes;
       are_at_home = are_at_home && head.are_at_home;
@@ -62,12 +64,20 @@ GlobalSample sample_of_all(const LocalNodes& nodes, Communicator& ranks, const P
     const std::size_t wanted = !sample.reuses_patches ? sample_size(division.nodes, patches)
                                : sample.looks_through ? kLookedThrough
                                                       : options.closing_nodes;
-    mine.resize(share_of_sample(before, nodes.count, std::min(division.nodes, wanted), division.nodes));
-    write_share(nodes, mine.size(), mine.data());
+    std::size_t before = 0, size = 0;
+    for (RankNumber r = 0; r < heads.size(); ++r) {
+      const std::size_t share =
+          share_of_sample(before, heads[r].nodes, std::min(division.nodes, wanted), division.nodes);
+      sample.nodes.resize(size + share);
+      if (r == me) write_share(nodes, share, sample.nodes.data() + size);
+      before += heads[r].nodes;
+      size += share;
+      begin[r + 1] = size * sizeof(SentNode);
+    }
     if (!sample.reuses_patches)
       sample.counter.resize(Cuts::counters(std::max(1, Cuts::levels(division.patches.count())) - 1));
   });
-  sample.nodes = gather_in_agreement(ranks, mine);
+  ranks.all_gather_in_place(sample.nodes.data(), begin);
   return sample;
 }
 

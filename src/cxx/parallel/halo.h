@@ -1,6 +1,6 @@
 #pragma once
-// Halo: the nodes of other ranks that are neighbours of nodes here. Each comes with its address, so a rank
-// asks its owner for what it wants to know.
+// Halo: the nodes of other ranks that are neighbours of nodes here. Each rank tells once which nodes it has
+// outside. From then on both sides know what travels.
 
 #include <cstddef>
 #include <cstdint>
@@ -29,24 +29,53 @@ class Halo {
   Halo() = default;
   /// outside[j] is the address of OutsideNode j, each once; none is here. Collective. Throws AgreedFailure.
   Halo(const std::vector<NodeAddress>& outside, Communicator& ranks);
+  /// The same where node j outside has the name names[j]; values for kNobody are dropped. Throws
+  /// std::bad_alloc.
+  Halo renamed(const std::vector<OutsideNode>& names) const;
+  static constexpr OutsideNode kNobody{UINT32_MAX};
+
+  /// Messages of values of so many bytes each.
+  struct Transfer {
+    std::size_t bytes = 0;
+    Parcels outgoing, incoming;
+  };
+  /// Memory for any number of transfers, one after another. Not collective. Throws std::bad_alloc.
+  Transfer transfer(std::size_t bytes, Communicator& ranks) const;
+  /// write(k, to) writes the value of node k. All ranks have called transfer(). Collective.
+  template <class Write>
+  void start(Communicator& ranks, Transfer& transfer, const Write& write) const {
+    for (RankNumber r = 0; r < send_.size(); ++r) {
+      unsigned char* to = transfer.outgoing.bytes.data() + transfer.outgoing.begin[r];
+      for (const LocalNode k : send_[r]) write(k, to), to += transfer.bytes;
+    }
+    ranks.start(transfer.outgoing, transfer.incoming);
+  }
+  /// Waits for the values, and calls read(j, value) for each node outside.
+  template <class Read>
+  void finish(Communicator& ranks, const Transfer& transfer, const Read& read) const {
+    ranks.finish();
+    const unsigned char* value = transfer.incoming.bytes.data();
+    for (const std::vector<OutsideNode>& from : receive_)
+      for (const OutsideNode j : from) {
+        if (j != kNobody) read(j, value);
+        value += transfer.bytes;
+      }
+  }
 
   /// Calls put(j, value) for each node outside, value being what value(k) returned for it on its owner.
-  /// Collective. Throws AgreedFailure.
+  /// Collective.
+  template <class Value, class GetValue, class Put>
+  void fetch(Communicator& ranks, Transfer& transfer, const GetValue& value, const Put& put) const {
+    start(ranks, transfer, [&](LocalNode k, void* to) { *static_cast<Value*>(to) = value(k); });
+    finish(ranks, transfer,
+           [&](OutsideNode j, const void* from) { put(j, *static_cast<const Value*>(from)); });
+  }
+  /// The same once. Throws AgreedFailure.
   template <class Value, class GetValue, class Put>
   void fetch(Communicator& ranks, const GetValue& value, const Put& put) const {
-    const Parcels arrived = exchange_in_agreement(ranks, [&] {
-      ParcelWriter writer(send_.size());
-      for (RankNumber r = 0; r < send_.size(); ++r) writer.expect<Value>(r, send_[r].size());
-      writer.make_room();
-      for (RankNumber r = 0; r < send_.size(); ++r) {
-        Value* room = writer.room<Value>(r, send_[r].size());
-        for (const LocalNode k : send_[r]) *room++ = value(k);
-      }
-      return writer.finish();
-    });
-    const Value* next = Items<Value>(arrived).begin();
-    for (const std::vector<OutsideNode>& from : receive_)
-      for (const OutsideNode j : from) put(j, *next++);
+    Transfer once;
+    in_agreement(ranks, [&] { once = transfer(sizeof(Value), ranks); });
+    fetch<Value>(ranks, once, value, put);
   }
 
   // Node k here and node j, of rank r, have become neighbours; the same is called on both ranks, in the same
@@ -63,9 +92,9 @@ class Halo {
   std::unordered_set<std::uint64_t> sent_;         ///< keys of send_; filled by the first send()
 };
 
-/// Fetches point and caller's number of each node outside, and sorts them by number. Collective. Throws
-/// AgreedFailure.
-void fetch_halo(std::vector<HaloNode>& outside, const LocalNodes& nodes, const NodeRanges& ranges,
+/// Fetches point and caller's number of each node outside, and sorts them by number. The result exchanges
+/// their values in this order. Collective. Throws AgreedFailure.
+Halo fetch_halo(std::vector<HaloNode>& outside, const LocalNodes& nodes, const NodeRanges& ranges,
                 Communicator& ranks);
 
 /// The addresses of these nodes. Throws std::bad_alloc.

@@ -67,11 +67,10 @@ std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes& nodes, const No
           are_closed.value = moving->begin(nodes, stars);
         if (!are_closed.value) return;
         moving->mesh_->for_each_arc_outside([&](std::size_t j) { ++moving->outside_[j].arcs; });
-        moving->sort_outside();
       },
       are_closed);
   if (!are_closed.value) return nullptr;
-  moving->halo_ = Halo(outside, ranks);
+  moving->halo_ = Halo(outside, ranks);  // that of the stars may get nodes that are no neighbours any more
   return moving;
 }
 
@@ -336,7 +335,12 @@ void MovingStars::update(Stars<Int>& stars) {
   stars.memory.push_back(std::move(rings));
   mesh_->forget_changes();
 
-  if (!by_number_) sort_outside();
+  if (!by_number_) {
+    sort_outside();
+    std::vector<OutsideNode> names(outside_.size(), Halo::kNobody);
+    for (std::uint32_t k = 0; k < by_number_->size(); ++k) names[index_of((*by_number_)[k])] = OutsideNode{k};
+    stars.halo = halo_.renamed(names);
+  }
   stars.outside.clear();
   for (const OutsideNode j : *by_number_) {
     const Outside& node = outside_[index_of(j)];

@@ -103,7 +103,8 @@ class MovingStars {
   std::optional<CacheReservation> stay_;
   std::optional<MovingMesh> mesh_;
   std::vector<Outside> outside_;  ///< by OutsideNode
-  /// Neighbours among outside_ by number; none after these have changed.
+  /// Neighbours among outside_ by number, as in the stars that update() has written last; none at first, on
+  /// all ranks, and after the neighbours have changed.
   std::optional<std::vector<OutsideNode>> by_number_;
   NumberTable<MeshNode> outside_by_counted_;  ///< numbers of outside_
   Halo halo_;

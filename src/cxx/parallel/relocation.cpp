@@ -144,17 +144,10 @@ GlobalNumber Relocation::now(GlobalNumber counted) const {
 
 template <class Int>
 Stars<Int> Relocation::stars(const Stars<Int>& last, const LocalNodes& nodes, Communicator& ranks) {
-  std::vector<NodeAddress> asked;
-  in_agreement(ranks, [&] {
-    asked = addresses_of(last.outside, last_);
-    outside_now_ = NumberTable<GlobalNumber>(last.outside.size());
-  });
-  Halo(asked, ranks)
-      .fetch<GlobalNumber>(
-          ranks, [&](LocalNode k) { return now(LastNode{k}); },
-          [&](OutsideNode j, GlobalNumber now) {
-            outside_now_.insert(last.outside[index_of(j)].counted, now);
-          });
+  in_agreement(ranks, [&] { outside_now_ = NumberTable<GlobalNumber>(last.outside.size()); });
+  last.halo.template fetch<GlobalNumber>(
+      ranks, [&](LocalNode k) { return now(LastNode{k}); },
+      [&](OutsideNode j, GlobalNumber now) { outside_now_.insert(last.outside[index_of(j)].counted, now); });
   const auto renamed = [&](Int entry) {
     const auto number = static_cast<Int>(now(named_by(entry)));
     return entry < 0 ? -number : number;
@@ -189,7 +182,7 @@ Stars<Int> Relocation::stars(const Stars<Int>& last, const LocalNodes& nodes, Co
         });
     stars.outside = outside.nodes();
   });
-  fetch_halo(stars.outside, nodes, now_, ranks);
+  stars.halo = fetch_halo(stars.outside, nodes, now_, ranks);
   return stars;
 }
 

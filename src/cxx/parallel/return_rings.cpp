@@ -9,16 +9,6 @@
 namespace pstripack {
 namespace {
 
-/// Sums over stars.
-struct StarSums {
-  std::int64_t nodes = 0, neighbours = 0, boundary = 0;  ///< boundary: nodes at the boundary
-  /// Euler's formula. V nodes, F triangles and B boundary arcs of a sphere (B = 0) or a disc have
-  /// V - (F + B)/2 = 2 or 1. A star has as many triangles as neighbours; at the boundary, one less.
-  bool are_of_sphere_or_disc() const {
-    return 6 * nodes - neighbours - 2 * boundary == (boundary > 0 ? 6 : 12);
-  }
-};
-
 /// Writes the rings of the own nodes of all patches here: into the memory of the hulls or, if `outside` is
 /// given, into memory of their own. Then the stars can stay when the hulls are freed. `outside`: what the
 /// rings of this rank's nodes name is added.

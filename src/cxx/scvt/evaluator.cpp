@@ -117,7 +117,7 @@ Neighbourhood LocalEvaluator::triangulate(const std::vector<Point>& generators) 
     numbers_.resize(stars.count);
     std::iota(numbers_.begin(), numbers_.end(), std::int64_t{1});
   }
-  return {generators.data(), numbers_.data(), stars, {}};
+  return {generators.data(), numbers_.data(), stars, stars.count, &no_halo_};
 }
 
 }  // namespace pstripack::scvt

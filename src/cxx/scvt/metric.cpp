@@ -38,10 +38,12 @@ float dot(const Four& a, const Four& b) {
 }  // namespace
 
 void Metric::set(const Neighbourhood& here, const Cells& cells) {
-  halo_ = Halo(here.owners, ranks_);
+  halo_ = here.halo;
   stars_ = here.stars;
-  const std::size_t n = stars_.count, all = n + here.owners.size();
+  const std::size_t n = stars_.count, all = here.known;
   in_agreement(ranks_, [&] {
+    of_doubles_ = halo_->transfer(sizeof(double), ranks_);
+    of_vectors_ = halo_->transfer(sizeof(Vector), ranks_);
     spring_.resize(n == 0 ? 0 : stars_.end_of(n - 1));
     for (auto* const array : {&share_, &diagonal_}) array->resize(all);
     for (auto* const array : {&points_, &rest_, &step_, &next_}) array->resize(all);
@@ -49,7 +51,7 @@ void Metric::set(const Neighbourhood& here, const Cells& cells) {
   for_each(n, [&](std::size_t i) {
     share_[i] = cells.mass[i] / static_cast<double>(stars_.end_of(i) - stars_.begin_of(i));
   });
-  fill(share_);
+  fill(share_, of_doubles_);
   for_each(all, [&](std::size_t i) { points_[i].f = four(here.points[i]); });
   for_each(n, [&](std::size_t i) {
     const Point& g = here.points[i];
@@ -88,7 +90,7 @@ void Metric::solve(std::vector<Point>& v) {
     ratio = 1 / (2 * kMiddle / kRadius - before);
     const auto of_step = static_cast<float>(ratio * before),
                of_rest = static_cast<float>(2 * ratio / kRadius);
-    fill(step_);
+    fill(step_, of_vectors_);
     for_each(v.size(), [&](std::size_t i) {
       const Four g = points_[i].f, u = step_[i].f;
       Four force{0, 0, 0, 0};

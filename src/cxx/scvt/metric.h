@@ -55,14 +55,15 @@ class Metric {
 
   /// values: by point, those of the halo are set to what their owners have.
   template <class Value>
-  void fill(std::vector<Value>& values) {
-    halo_.fetch<Value>(
-        ranks_, [&](LocalNode k) { return values[k]; },
+  void fill(std::vector<Value>& values, Halo::Transfer& transfer) {
+    halo_->fetch<Value>(
+        ranks_, transfer, [&](LocalNode k) { return values[k]; },
         [&](OutsideNode j, const Value& value) { values[stars_.count + index_of(j)] = value; });
   }
 
   Communicator& ranks_;
-  Halo halo_;
+  const Halo* halo_ = nullptr;
+  Halo::Transfer of_doubles_, of_vectors_;
   NeighbourLists stars_;
   std::vector<double> share_;     ///< by point: mass / sides
   std::vector<double> diagonal_;  ///< by generator: D

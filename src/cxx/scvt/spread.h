@@ -11,7 +11,7 @@
 
 #include "geometry/point.h"
 #include "parallel/communicator.h"
-#include "parallel/node_ranges.h"
+#include "parallel/halo.h"
 #include "scvt/cells.h"
 
 namespace pstripack::scvt {
@@ -26,8 +26,8 @@ struct Neighbourhood {
   const Point* points = nullptr;
   const std::int64_t* numbers = nullptr;
   NeighbourLists stars;  ///< of the points of this rank; neighbours are indices into the arrays above, from 1
-  /// Where the points of the halo are at home.
-  std::vector<NodeAddress> owners;
+  std::size_t known = 0;       ///< number of all these points
+  const Halo* halo = nullptr;  ///< exchanges values of those behind the points of this rank
 };
 
 /// Numbers the points of all ranks along a space-filling curve on the sphere. Each rank gets a part of the

@@ -137,7 +137,7 @@ std::vector<Point> unit_vectors(std::vector<Point> generators) {
   for (std::size_t i = 0; i < generators.size(); ++i) {
     if (!has_direction(generators[i]))
       throw BadGenerators("generator " + std::to_string(i + 1) + " has no direction");
-    generators[i] = unit_vector(generators[i]);
+    generators[i] = scvt::unit_vector(generators[i]);
   }
   return generators;
 }
