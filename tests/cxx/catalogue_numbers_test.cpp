@@ -172,6 +172,14 @@ TEST(Lengths, AllExtremeAreCorrectOrRefused) {
   }
 }
 
+TEST(Components, DenormalOnesAreCorrect) {
+  Nodes nodes = make("random", 200);
+  for (int i = -3; i <= 3; ++i)  // rings around an axis at distances of denormal size
+    for (int j = -3; j <= 3; ++j) nodes.push_back({1, i * tiny, j * 1e-310});
+  ASSERT_EQ(expected_ier(nodes), 0);
+  EXPECT_TRUE(is_as_promised(nodes));
+}
+
 class SinglePrecision : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(SinglePrecision, NodesAreCorrectAndAsInDouble) {

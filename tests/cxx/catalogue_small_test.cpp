@@ -149,6 +149,16 @@ TEST(GreatCircle, FirstThreeRoundedAreNotUnlessTheDeterminantIsZero) {
   EXPECT_EQ(ier_of(nodes_in(TEST_DATA_DIR "/first_three_meridian_37.txt")), 0);
 }
 
+TEST(GreatCircle, AllOnTheEquatorAreCollinear) {
+  Nodes nodes;
+  for (int i = 0; i < 100; ++i) nodes.push_back(from_degrees(3.6 * i, 0));
+  const Mesh m = trmesh(nodes);
+  EXPECT_EQ(m.ier, -2);
+  EXPECT_TRUE(is_untouched(m));
+  for (Point& p : nodes) p = from_degrees(3.6 * static_cast<double>(&p - nodes.data()), 60);
+  EXPECT_EQ(boundary_nodes(trmesh(nodes)), 100u);
+}
+
 TEST(GreatCircle, AllOnATiltedOneAreCorrect) {
   Random random(1);
   for (int i = 0; i < 300; ++i) {

@@ -140,7 +140,7 @@ PSTRIPACK_API int32_t pstripack_mesh_exchange_end(pstripack_mesh* mesh, int64_t 
 /* Compares the stars of all ranks with each other: every star is a cycle, every triangle stands in the stars
  * of its three corners, and all triangles cover one sphere or disc (Euler's formula). Collective. fingerprint
  * out, may be NULL: a hash of 64 bits that depends on the set of triangles alone. If the numbers are 1..N,
- * that of pstripack_fingerprint Returns 0, -3 (empty mesh), -6, -8, or -13: then pstripack_mesh_error_points
+ * that of pstripack_fingerprint. Returns 0, -3 (empty mesh), -6, -8, or -13: then pstripack_mesh_error_points
  * tells the smallest number of a point with a wrong star, 0 if only Euler's formula fails. */
 PSTRIPACK_API int32_t pstripack_mesh_check(pstripack_mesh* mesh, uint64_t* fingerprint);
 
