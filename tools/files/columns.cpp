@@ -51,14 +51,11 @@ AngleUnit::AngleUnit(const std::string& text) {
 LonLat::LonLat(const std::vector<pstripack::Point>& points, bool in_degrees)
     : lon(points.size()), lat(points.size()), degrees(in_degrees) {
   const double scale = degrees ? kDegreesPerRadian : 1;
-  pstripack::parallel_pieces(points.size(), pstripack::threads_for(points.size()),
-                             [&](std::size_t first, std::size_t last, int) {
-                               for (std::size_t i = first; i < last; ++i) {
-                                 const pstripack::Point& p = points[i];
-                                 lon[i] = std::atan2(p.y, p.x) * scale;
-                                 lat[i] = std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y)) * scale;
-                               }
-                             });
+  pstripack::parallel_for(points.size(), points.size(), [&](std::size_t i) {
+    const pstripack::Point& p = points[i];
+    lon[i] = std::atan2(p.y, p.x) * scale;
+    lat[i] = std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y)) * scale;
+  });
 }
 
 LonLat angles_of(const std::vector<pstripack::Point>& points, const LonLat& given, bool degrees) {

@@ -24,6 +24,8 @@ constexpr double kRounding = 1e-15;
 /// Corners closer than this to a meridian or parallel, in degrees, are on it.
 constexpr double kThin = kSamePlace * kRadian;
 
+double distance(const Point& a, const Point& b) { return length(minus(a, b)); }
+
 bool is_pole(const MapCorner& c) { return c.p.x == 0 && c.p.y == 0; }
 MapCorner pole(double z) { return {{0, 0, std::copysign(1.0, z)}, 0, std::copysign(90.0, z)}; }
 
@@ -255,16 +257,12 @@ std::vector<std::int32_t> merged_corners(const Faces& faces) {
     while (of(i) != i) i = of(i) = of(of(i));
     return i;
   };
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    for (std::size_t k = faces.begin[f]; k < faces.begin[f + 1]; ++k) {
-      const std::int32_t a = faces.corner[k],
-                         b = faces.corner[k + 1 < faces.begin[f + 1] ? k + 1 : faces.begin[f]];
-      const Point side =
-          minus(faces.points[static_cast<std::size_t>(a) - 1], faces.points[static_cast<std::size_t>(b) - 1]);
-      if (dot(side, side) >= kSamePlace * kSamePlace) continue;
-      const std::int32_t at_a = find(a), at_b = find(b);
-      first[static_cast<std::size_t>(std::max(at_a, at_b))] = std::min(at_a, at_b);
-    }
+  faces.for_each_corner([&](std::size_t f, std::size_t k) {
+    const std::size_t next = faces.after(f, k);
+    if (distance(faces.point(k), faces.point(next)) >= kSamePlace) return;
+    const std::int32_t a = find(faces.corner[k]), b = find(faces.corner[next]);
+    first[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  });
   std::vector<std::int32_t> merged(faces.corner.size());
   for (std::size_t k = 0; k < merged.size(); ++k) merged[k] = find(faces.corner[k]);
   return merged;
@@ -421,8 +419,6 @@ double area_on_map(const MapRing& ring) {
   return sum;
 }
 
-double distance(const Point& a, const Point& b) { return length(minus(a, b)); }
-
 /// The distance of c from the great circle of an arc, from differences, so that small distances keep their
 /// digits; for c closer than 90 degrees to `a`.
 double distance_to_circle(const Point& c, const Point& a, const Point& b) {
@@ -462,7 +458,7 @@ double distance_of_line(const MapCorner& a, const MapCorner& b) {
 class MapLines::Arc {
  public:
   /// `sides`: the arc in the faces on both sides, or in one of them.
-  Arc(const MapLines& all, const Side* sides, std::ptrdiff_t count) {
+  Arc(const MapLines& all, const FaceSide* sides, std::ptrdiff_t count) {
     ends_[0] = all.at(sides->low), ends_[1] = all.at(sides->high);
     ends_[1].turn = turn_after(ends_[0], ends_[1]);
     for (std::ptrdiff_t k = 0; k < count && k < 2; ++k) take_face(all, sides[k].face, sides[k].slot);
@@ -581,22 +577,17 @@ MapLines::MapLines(const Faces& faces)
       is_bent_(faces.points.size()) {
   const auto side = [&](std::size_t f, std::size_t k) {
     const auto [low, high] = std::minmax(corner_[k], corner_[after(f, k)]);
-    return Side{low, high, f, k};
-  };
-  const auto for_each_side = [&](std::size_t first, std::size_t last, const auto& visit) {
-    for (std::size_t f = first; f < last; ++f)
-      for (std::size_t k = faces.begin[f]; k < faces.begin[f + 1]; ++k) visit(f, k);
+    return FaceSide{low, high, f, k};
   };
   std::vector<char> bends(corner_.size());
-  pstripack::parallel_pieces(faces.size(), pstripack::threads_for(10 * corner_.size()),
-                             [&](std::size_t first, std::size_t last, int) {
-                               for_each_side(first, last, [&](std::size_t f, std::size_t k) {
-                                 const Side s = side(f, k);
-                                 bends[k] = s.low != s.high && !leads_to_pole(point(s.low), point(s.high)) &&
-                                            !Arc(*this, &s, 1).is_line();
-                               });
-                             });
-  for_each_side(0, faces.size(), [&](std::size_t f, std::size_t k) {
+  pstripack::parallel_for(faces.size(), 10 * corner_.size(), [&](std::size_t f) {
+    for (std::size_t k = faces.begin[f]; k < faces.begin[f + 1]; ++k) {
+      const FaceSide s = side(f, k);
+      bends[k] =
+          s.low != s.high && !leads_to_pole(point(s.low), point(s.high)) && !Arc(*this, &s, 1).is_line();
+    }
+  });
+  faces.for_each_corner([&](std::size_t f, std::size_t k) {
     if (!bends[k]) return;
     bent_.push_back(side(f, k));
     is_bent_[static_cast<std::size_t>(bent_.back().low) - 1] = true;
@@ -627,8 +618,8 @@ MapRing MapLines::corners_between(std::int32_t from, std::int32_t to) const {
   const auto [low, high] = std::minmax(from, to);
   if (!is_bent_[static_cast<std::size_t>(low) - 1]) return {};
   const auto [first, last] = std::equal_range(
-      bent_.begin(), bent_.end(), Side{low, high, 0, 0},
-      [](const Side& a, const Side& b) { return std::tie(a.low, a.high) < std::tie(b.low, b.high); });
+      bent_.begin(), bent_.end(), FaceSide{low, high, 0, 0},
+      [](const FaceSide& a, const FaceSide& b) { return std::tie(a.low, a.high) < std::tie(b.low, b.high); });
   if (first == last) return {};
   MapRing corners = Arc(*this, &*first, last - first).corners();
   if (from != low) std::reverse(corners.begin(), corners.end());
@@ -663,7 +654,7 @@ std::vector<MapRing> MapLines::lines(std::int32_t from, std::int32_t to) const {
   if (leads_through_pole(point(from), point(to))) {
     corners.push_back(pole(point(from).z + point(to).z));
   } else if (!leads_to_pole(point(from), point(to))) {
-    const Side side{from, to, 0, 0};
+    const FaceSide side{from, to, 0, 0};
     for (const MapCorner& corner : Arc(*this, &side, 0).corners()) corners.push_back(corner);
   }
   corners.push_back(at(to));

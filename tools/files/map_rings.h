@@ -2,7 +2,6 @@
 // Polygons of the sphere on a map: longitude to the right, latitude upwards, in degrees.
 
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
 #include "files/mesh.h"
@@ -78,15 +77,6 @@ class MapLines {
 
  private:
   class Arc;
-  /// The side of a face that begins at faces.corner[slot], between the corners `low` and `high`.
-  struct Side {
-    std::int32_t low, high;
-    std::size_t face, slot;
-    bool operator<(const Side& o) const {
-      return std::tie(low, high, slot) < std::tie(o.low, o.high, o.slot);
-    }
-  };
-
   const Point& point(std::int32_t corner) const {
     return faces_.points[static_cast<std::size_t>(corner) - 1];
   }
@@ -100,8 +90,8 @@ class MapLines {
   const Faces& faces_;
   LonLat angles_;
   std::vector<std::int32_t> corner_;
-  std::vector<Side> bent_;     ///< sides that are not close enough to one line for their face, sorted
-  std::vector<bool> is_bent_;  ///< of each point: it is `low` of such a side
+  std::vector<FaceSide> bent_;  ///< sides that are not close enough to one line for their face, sorted
+  std::vector<bool> is_bent_;   ///< of each point: it is `low` of such a side
 };
 
 /// Adds corners until arcs of great circles are within 0.0001 degrees of the straight lines and no side is

@@ -219,11 +219,9 @@ std::vector<std::int32_t> triangles_to_write(const Mesh& mesh) {
 
 std::vector<Point> unit(const std::vector<Point>& points) {
   std::vector<Point> result(points.size());
-  pstripack::parallel_pieces(
-      points.size(), pstripack::threads_for(points.size()), [&](std::size_t first, std::size_t last, int) {
-        for (std::size_t i = first; i < last; ++i)
-          result[i] = pstripack::length_is_one(points[i]) ? points[i] : unit(points[i]);
-      });
+  pstripack::parallel_for(points.size(), points.size(), [&](std::size_t i) {
+    result[i] = pstripack::length_is_one(points[i]) ? points[i] : unit(points[i]);
+  });
   return result;
 }
 
@@ -235,11 +233,9 @@ auto measures_of(const std::vector<Point>& points, const std::vector<std::int32_
                  const Measure& measure) {
   const pstripack::Directions nodes(points.data(), points.size());
   std::vector<decltype(measure(nodes, 0, 0, 0))> all(triangles.size() / 3);
-  pstripack::parallel_pieces(
-      all.size(), pstripack::threads_for(4 * all.size()), [&](std::size_t first, std::size_t last, int) {
-        for (std::size_t t = first; t < last; ++t)
-          all[t] = measure(nodes, triangles[3 * t] - 1, triangles[3 * t + 1] - 1, triangles[3 * t + 2] - 1);
-      });
+  pstripack::parallel_for(all.size(), 4 * all.size(), [&](std::size_t t) {
+    all[t] = measure(nodes, triangles[3 * t] - 1, triangles[3 * t + 1] - 1, triangles[3 * t + 2] - 1);
+  });
   return all;
 }
 
@@ -387,32 +383,27 @@ Faces voronoi_faces(const Mesh& mesh, bool with_corners) {
 
 std::vector<double> areas(const Faces& faces) {
   std::vector<double> all(faces.size());
-  const auto point = [&](std::size_t k) {
-    return faces.points[static_cast<std::size_t>(faces.corner[k]) - 1];
-  };
-  pstripack::parallel_pieces(
-      all.size(), pstripack::threads_for(8 * all.size()), [&](std::size_t first, std::size_t last, int) {
-        for (std::size_t f = first; f < last; ++f) {
-          if (!faces.area.empty() && !std::isnan(faces.area[f])) {
-            all[f] = faces.area[f];
-            continue;
-          }
-          const std::size_t begin = faces.begin[f], end = faces.begin[f + 1];
-          // Parts of a cell may be far from its node, and small.
-          const auto is_small = [&] {
-            for (std::size_t k = begin; k < end; ++k)
-              if (dot(point(begin), point(k)) < 0.5) return false;
-            return true;
-          };
-          if (faces.centres.empty() || (!faces.nodes.empty() && is_small())) {
-            for (std::size_t k = begin + 1; k + 1 < end; ++k)
-              all[f] += triangle_area(point(begin), point(k), point(k + 1));
-          } else {
-            for (std::size_t k = begin; k < end; ++k)
-              all[f] += triangle_area(faces.centres[f], point(k), point(k + 1 < end ? k + 1 : begin));
-          }
-        }
-      });
+  const auto point = [&](std::size_t k) { return faces.point(k); };
+  pstripack::parallel_for(all.size(), 8 * all.size(), [&](std::size_t f) {
+    if (!faces.area.empty() && !std::isnan(faces.area[f])) {
+      all[f] = faces.area[f];
+      return;
+    }
+    const std::size_t begin = faces.begin[f], end = faces.begin[f + 1];
+    // Parts of a cell may be far from its node, and small.
+    const auto is_small = [&] {
+      for (std::size_t k = begin; k < end; ++k)
+        if (dot(point(begin), point(k)) < 0.5) return false;
+      return true;
+    };
+    if (faces.centres.empty() || (!faces.nodes.empty() && is_small())) {
+      for (std::size_t k = begin + 1; k + 1 < end; ++k)
+        all[f] += triangle_area(point(begin), point(k), point(k + 1));
+    } else {
+      for (std::size_t k = begin; k < end; ++k)
+        all[f] += triangle_area(faces.centres[f], point(k), point(faces.after(f, k)));
+    }
+  });
   return all;
 }
 
@@ -497,13 +488,8 @@ Faces hull_face(const Mesh& mesh) {
 void add_columns(Faces& faces, const Mesh& mesh) {
   (faces.centres.empty() ? faces.given_points : faces.given_centres) = mesh.given;
   std::vector<double> degrees(mesh.points.size());
-  const pstripack::ListReader<std::int32_t> reader(mesh.lists());
-  pstripack::parallel_pieces(
-      degrees.size(), pstripack::threads_for(degrees.size()), [&](std::size_t first, std::size_t last, int) {
-        for (std::size_t i = first; i < last; ++i) {
-          reader.for_each_neighbour(static_cast<std::int32_t>(i + 1), [&](std::int32_t) { ++degrees[i]; });
-        }
-      });
+  for (std::size_t i = 0; i < degrees.size(); ++i)
+    degrees[i] = pstripack::nbcnt(mesh.lend[i], mesh.lptr.data());
   add_columns(faces, mesh.points, mesh.columns, std::move(degrees));
 }
 

@@ -103,50 +103,41 @@ class ClassicHeader {
   int count_size_ = 4;
 };
 
+/// What NetCDF's types of numbers hold, by nc_type.
+struct TypeOfNumbers {
+  int bits;  ///< of integers; 0: floating point
+  bool is_signed;
+  double fill;  ///< the library's
+};
+constexpr TypeOfNumbers kTypes[] = {{},
+                                    {8, true, NC_FILL_BYTE},
+                                    {},
+                                    {16, true, NC_FILL_SHORT},
+                                    {32, true, NC_FILL_INT},
+                                    {0, true, NC_FILL_FLOAT},
+                                    {0, true, NC_FILL_DOUBLE},
+                                    {8, false, NC_FILL_UBYTE},
+                                    {16, false, NC_FILL_USHORT},
+                                    {32, false, NC_FILL_UINT},
+                                    {64, true, static_cast<double>(NC_FILL_INT64)},
+                                    {64, false, static_cast<double>(NC_FILL_UINT64)}};
+
 /// The stored numbers of a variable as its type and `_Unsigned` mean them.
 struct Stored {
-  nc_type type;
-  bool is_unsigned, is_reinterpreted;
+  const TypeOfNumbers& type;
+  bool is_float, is_unsigned;
 
-  Stored(nc_type of, const std::string& attribute) : type(of) {
-    const bool is_signed_type = of == NC_BYTE || of == NC_SHORT || of == NC_INT || of == NC_INT64;
-    is_unsigned = is_signed_type ? attribute == "true" || attribute == "True"
-                                 : !(attribute == "false" || attribute == "False");
-    is_reinterpreted = is_unsigned == is_signed_type;
-  }
-  bool is_integer() const { return type != NC_FLOAT && type != NC_DOUBLE; }
-  bool is_byte() const { return type == NC_BYTE || type == NC_UBYTE; }
-  int bits() const {
-    if (is_byte()) return 8;
-    return type == NC_SHORT || type == NC_USHORT ? 16 : type == NC_INT || type == NC_UINT ? 32 : 64;
-  }
+  Stored(nc_type of, const std::string& attribute)
+      : type(kTypes[of]),
+        is_float(of == NC_FLOAT),
+        is_unsigned(type.is_signed ? attribute == "true" || attribute == "True"
+                                   : attribute != "false" && attribute != "False") {}
   double number(double value) const {
-    if (type == NC_FLOAT) return static_cast<double>(static_cast<float>(value));
-    if (!is_integer() || !is_reinterpreted) return value;
-    const double count = std::ldexp(1, bits());
+    if (is_float) return static_cast<double>(static_cast<float>(value));
+    if (type.bits == 0 || is_unsigned != type.is_signed) return value;
+    const double count = std::ldexp(1, type.bits);
     if (is_unsigned) return value < 0 ? value + count : value;
     return value >= count / 2 ? value - count : value;
-  }
-  /// The library's.
-  double fill() const {
-    switch (type) {
-      case NC_SHORT:
-        return NC_FILL_SHORT;
-      case NC_USHORT:
-        return NC_FILL_USHORT;
-      case NC_INT:
-        return NC_FILL_INT;
-      case NC_UINT:
-        return NC_FILL_UINT;
-      case NC_INT64:
-        return static_cast<double>(NC_FILL_INT64);
-      case NC_UINT64:
-        return static_cast<double>(NC_FILL_UINT64);
-      case NC_FLOAT:
-        return static_cast<double>(NC_FILL_FLOAT);
-      default:
-        return NC_FILL_DOUBLE;
-    }
   }
 };
 
@@ -323,7 +314,7 @@ std::vector<double> NetcdfFile::values(const NetcdfVariable& v) const {
 
   const Stored stored(v.type, text(v, "_Unsigned"));
   std::vector<double> missing = numbers(v, "_FillValue");
-  if (missing.empty() && !stored.is_byte()) missing.push_back(stored.fill());
+  if (missing.empty() && stored.type.bits != 8) missing.push_back(stored.type.fill);
   for (const double value : numbers(v, "missing_value")) missing.push_back(value);
   for (double& value : missing) value = stored.number(value);
 
@@ -333,7 +324,7 @@ std::vector<double> NetcdfFile::values(const NetcdfVariable& v) const {
   nc_type type = v.type;
   for (const char* const attribute : {"valid_range", "valid_min", "valid_max"})
     nc_inq_atttype(v.group, v.id, attribute, &type);
-  const bool is_unpacked_range = packed && stored.is_integer() && (type == NC_FLOAT || type == NC_DOUBLE);
+  const bool is_unpacked_range = packed && stored.type.bits > 0 && (type == NC_FLOAT || type == NC_DOUBLE);
   if (range.size() != 2) range = {number(v, "valid_min", -INFINITY), number(v, "valid_max", INFINITY)};
   if (!is_unpacked_range)
     for (double& bound : range) bound = std::isfinite(bound) ? stored.number(bound) : bound;

@@ -51,12 +51,7 @@ std::string_view first_word(std::string_view text) {
 void set_angles(Nodes& nodes, LonLat given, Units units, const std::string& to_exchange) {
   const std::size_t n = given.lon.size();
   if (units == Units::said_or_unmistakable) {
-    const auto largest = [](const std::vector<double>& values) {
-      double most = 0;
-      for (const double v : values) most = std::max(most, std::fabs(v));
-      return most;
-    };
-    const double lon = largest(given.lon), lat = largest(given.lat);
+    const double lon = largest_of(given.lon), lat = largest_of(given.lat);
     if (lon <= 4 * kRightAngle * kSlack && lat <= kRightAngle * kSlack)
       throw std::runtime_error(fmt::format(
           "{}: the angles may be degrees or radians: say --units degrees or --units radians (longitudes "
@@ -66,18 +61,17 @@ void set_angles(Nodes& nodes, LonLat given, Units units, const std::string& to_e
     units = Units::degrees;
   }
   given.degrees = units == Units::degrees;
-  const Angles angles{given.lon.data(), given.lat.data(), 1, given.degrees, given.degrees};
-  if (const std::size_t bad = first_beyond_pole(angles, n); bad < n)
+  if (const std::size_t bad = first_beyond_pole(given); bad < n)
     throw std::runtime_error(
         fmt::format("{}: {}: latitude {} is beyond the pole: the columns are 'lon lat', in {}{}", nodes.file,
                     nodes.place(bad), given.lat[bad], given.degrees ? "degrees" : "radians",
-                    hint_beyond_pole(angles, n, to_exchange)));
+                    hint_beyond_pole(given, to_exchange)));
   for (std::size_t i = 0; !given.degrees && i < n; ++i)
     if (std::fabs(given.lon[i]) > 8 * kRightAngle)
       throw std::runtime_error(
           fmt::format("{}: {}: longitude {} is more than two turns in radians; --units degrees?", nodes.file,
                       nodes.place(i), given.lon[i]));
-  nodes.points = points_of(angles, n);
+  nodes.points = points_of(given);
   nodes.kind += given.degrees ? ", lon lat in degrees" : ", lon lat in radians";
   nodes.given = std::move(given);
 }
@@ -469,42 +463,38 @@ void Nodes::keep(const std::vector<std::size_t>& indices) {
   vertices.clear();
 }
 
-std::string hint_beyond_pole(const Angles& a, std::size_t n, const std::string& to_exchange) {
-  const auto largest = [&](const double* values) {
-    double most = 0;
-    for (std::size_t i = 0; i < n; ++i) most = std::max(most, std::fabs(values[a.stride * i]));
-    return most;
-  };
-  if (!a.lat_in_degrees) return "; --units degrees?";
-  if (largest(a.lon) > 90 || largest(a.lat) > 360) return "";
+double largest_of(const std::vector<double>& values) {
+  double most = 0;
+  for (const double v : values) most = std::max(most, std::fabs(v));
+  return most;
+}
+
+std::string hint_beyond_pole(const LonLat& a, const std::string& to_exchange) {
+  if (!a.degrees) return "; --units degrees?";
+  if (largest_of(a.lon) > 90 || largest_of(a.lat) > 360) return "";
   return "; are they exchanged?" + (to_exchange.empty() ? "" : " Then say --columns " + to_exchange);
 }
 
-std::vector<Point> points_of(const Angles& a, std::size_t n) {
-  const auto sin_lon = a.lon_in_degrees ? point_sets::sin_degrees : point_sets::sin_radians;
-  const auto cos_lon = a.lon_in_degrees ? point_sets::cos_degrees : point_sets::cos_radians;
-  const auto sin_lat = a.lat_in_degrees ? point_sets::sin_degrees : point_sets::sin_radians;
-  const auto cos_lat = a.lat_in_degrees ? point_sets::cos_degrees : point_sets::cos_radians;
-  std::vector<Point> points(n);
-  pstripack::parallel_pieces(n, pstripack::threads_for(n), [&](std::size_t first, std::size_t last, int) {
-    for (std::size_t i = first; i < last; ++i) {
-      const double lon = a.lon[a.stride * i], lat = a.lat[a.stride * i];
-      if (std::isnan(lon) || std::isnan(lat)) {
-        points[i] = {lon + lat, lon + lat, lon + lat};
-        continue;
-      }
-      const double r = cos_lat(lat);
-      points[i] = {r * cos_lon(lon), r * sin_lon(lon), sin_lat(lat)};
+std::vector<Point> points_of(const LonLat& a) {
+  const auto sine = a.degrees ? point_sets::sin_degrees : point_sets::sin_radians;
+  const auto cosine = a.degrees ? point_sets::cos_degrees : point_sets::cos_radians;
+  std::vector<Point> points(a.lon.size());
+  pstripack::parallel_for(points.size(), points.size(), [&](std::size_t i) {
+    const double lon = a.lon[i], lat = a.lat[i], either = lon + lat;
+    if (std::isnan(either)) {
+      points[i] = {either, either, either};
+    } else {
+      const double r = cosine(lat);
+      points[i] = {r * cosine(lon), r * sine(lon), sine(lat)};
     }
   });
   return points;
 }
 
-std::size_t first_beyond_pole(const Angles& a, std::size_t n) {
-  const double pole = (a.lat_in_degrees ? 90 : kRightAngle) * kSlack;
-  std::size_t i = 0;
-  while (i < n && !(std::fabs(a.lat[a.stride * i]) > pole)) ++i;
-  return i;
+std::size_t first_beyond_pole(const LonLat& a) {
+  const double pole = (a.degrees ? 90 : kRightAngle) * kSlack;
+  const auto is_beyond = [&](double lat) { return std::fabs(lat) > pole; };
+  return static_cast<std::size_t>(std::find_if(a.lat.begin(), a.lat.end(), is_beyond) - a.lat.begin());
 }
 
 void set_triangles(Nodes& nodes, const std::vector<long long>& corners, long long first) {

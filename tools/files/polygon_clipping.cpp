@@ -4,9 +4,10 @@
 // differences from the middle: a polygon of metres has as many digits as one of continents.
 #include <algorithm>
 #include <array>
+#include <boost/functional/hash.hpp>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
+#include <map>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -267,14 +268,8 @@ std::vector<Rings> pieces_on_map(const Rings& rings) {
   return pieces;
 }
 
-struct HashOfSide {
-  std::size_t operator()(const std::pair<Place, Place>& s) const {
-    return HashOfBits()({s.first.first, s.first.second, s.second.first}) ^
-           HashOfBits()({s.second.second, 0, 0});
-  }
-};
 /// Into how many arcs a side is divided, if more than one: in all polygons into as many.
-using Divisions = std::unordered_map<std::pair<Place, Place>, int, HashOfSide>;
+using Divisions = std::unordered_map<std::pair<Place, Place>, int, boost::hash<std::pair<Place, Place>>>;
 
 std::pair<Place, Place> side_between(const Corner& p, const Corner& q) {
   return std::minmax(Place(p.u, p.v), Place(q.u, q.v));
@@ -415,38 +410,25 @@ class Sides {
 class SameCorners {
  public:
   const MapCorner& of(const MapCorner& corner) {
-    const auto square = [](double v) { return std::floor(v / kSquare); };
-    const Point at{square(corner.p.x), square(corner.p.y), square(corner.p.z)};
-    const auto near = [](double v, double s) {  // the neighbouring square that may hold others, or the same
-      return v / kSquare - s < 0.5 ? s - 1 : s + 1;
-    };
-    for (int k = 0; k < 8; ++k) {
-      const auto found =
-          corners_.find({k & 1 ? near(corner.p.x, at.x) : at.x, k & 2 ? near(corner.p.y, at.y) : at.y,
-                         k & 4 ? near(corner.p.z, at.z) : at.z});
-      if (found == corners_.end()) continue;
-      for (const MapCorner& c : found->second)
-        if (const Point d = minus(c.p, corner.p); dot(d, d) < kSameCorner * kSameCorner) return c;
-    }
-    return corners_[at].emplace_back(corner);
+    // Heights above a plane along which few corners lie differ by no more than their places.
+    const double height = dot(corner.p, {0.36, 0.48, 0.8});
+    for (auto c = corners_.lower_bound(height - 2 * kSameCorner);
+         c != corners_.end() && c->first <= height + 2 * kSameCorner; ++c)
+      if (length(minus(c->second.p, corner.p)) < kSameCorner) return c->second;
+    return corners_.emplace(height, corner)->second;
   }
 
  private:
-  static constexpr double kSquare = 4 * kSameCorner;
-  std::unordered_map<Point, std::vector<MapCorner>, HashOfBits> corners_;
+  std::multimap<double, MapCorner> corners_;
 };
 
 class Clipper {
  public:
   explicit Clipper(const Faces& cells)
-      : cells_(cells), sides_(cells), angles_(cells.points, true), pieces_(cells) {
-    for (std::size_t f = 0; f < cells.size(); ++f) {
-      double radius = 0;
-      for (std::size_t k = cells.begin[f]; k < cells.begin[f + 1]; ++k)
-        radius = std::max(radius, angle_between(cells.centres[f],
-                                                cells.points[static_cast<std::size_t>(cells.corner[k]) - 1]));
-      radius_.push_back(radius);
-    }
+      : cells_(cells), sides_(cells), angles_(cells.points, true), radius_(cells.size()), pieces_(cells) {
+    cells.for_each_corner([&](std::size_t f, std::size_t k) {
+      radius_[f] = std::max(radius_[f], angle_between(cells.centres[f], cells.point(k)));
+    });
   }
 
   /// The sum of the areas of the parts, and that of the sheet.

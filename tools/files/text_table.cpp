@@ -108,29 +108,13 @@ std::string remedy_for(std::string_view word) {
   return ": correct it, remove the row, or choose other --columns";
 }
 
-class Lines {
- public:
-  Lines(std::string_view text, std::size_t first_line) : text_(text), next_(first_line) {}
-
-  bool next(std::string_view& line) {
-    if (at_ == text_.size()) return false;
-    begin_ = at_;
-    const void* const end = std::memchr(text_.data() + at_, '\n', text_.size() - at_);
-    const std::size_t stop = end == nullptr
-                                 ? text_.size()
-                                 : static_cast<std::size_t>(static_cast<const char*>(end) - text_.data());
-    line = text_.substr(at_, stop - at_);
-    at_ = std::min(stop + 1, text_.size());
-    ++next_;
-    return true;
-  }
-  std::size_t begin() const { return begin_; }      ///< offset of the line
-  std::size_t number() const { return next_ - 1; }  ///< of the line
-
- private:
-  std::string_view text_;
-  std::size_t at_ = 0, begin_ = 0, next_;
-};
+/// Takes the first line off the text, and returns it without its end.
+std::string_view take_line(std::string_view& text) {
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return line;
+}
 
 class Cells {
  public:
@@ -324,8 +308,8 @@ std::string of_other_count(std::string_view line, std::size_t found, const TextL
 struct Piece {
   TextRows rows;
   std::vector<char> has_words;  ///< of each column: true if a word in it is not a number
-  std::size_t newlines = 0, segments = 0, error_line = 0;
-  std::string error;
+  std::size_t newlines = 0, segments = 0;
+  std::string error;  ///< in the last line
 };
 
 class Reader {
@@ -336,46 +320,17 @@ class Reader {
         nan_in_places_(std::find(roles.begin(), roles.end(), Role::value) != roles.end()) {}
 
   void read(std::string_view text, Piece& piece) const {
-    const std::size_t columns = layout_.columns;
-    piece.rows.numbers.resize(columns);
-    piece.has_words.resize(columns);
-    Lines lines(text, 1);
-    std::string_view line;
-    while (lines.next(line)) {
+    piece.rows.numbers.resize(layout_.columns);
+    piece.rows.texts.resize(layout_.columns);
+    piece.has_words.resize(layout_.columns);
+    while (!text.empty() && piece.error.empty()) {
+      std::string_view line = take_line(text);
       ++piece.newlines;
-      if (!is_row(line, piece)) continue;
-      const std::size_t found = read_row(line, lines.number(), piece);
-      if (piece.error_line > 0) return;
-      if (found == 0) continue;
-      if (found != columns) return error(piece, lines.number(), of_other_count(line, found, layout_));
-      piece.rows.lines.push_back(lines.number());
-      piece.rows.segments.push_back(static_cast<double>(piece.segments));
-    }
-  }
-
-  /// Reads the cells of these columns as texts.
-  void read_texts(std::string_view text, const std::vector<std::size_t>& columns, TextRows& rows) const {
-    Lines lines(text, 1);
-    std::string_view line, word;
-    Piece ignored;
-    while (lines.next(line)) {
-      if (!is_row(line, ignored)) continue;
-      Cells cells(line, layout_.separator, layout_.has_quotes);
-      auto wanted = columns.begin();
-      for (std::size_t c = 0; wanted != columns.end() && cells.more() && cells.word(word); ++c)
-        if (c == *wanted) {
-          rows.texts[c].push_back(layout_.has_quotes ? without_doubled_quotes(word) : std::string(word));
-          ++wanted;
-        }
+      if (is_row(line, piece)) read_row(line, piece);
     }
   }
 
  private:
-  static void error(Piece& piece, std::size_t line, std::string what) {
-    piece.error_line = line;
-    piece.error = std::move(what);
-  }
-
   /// Removes comments. False if nothing remains.
   bool is_row(std::string_view& line, Piece& piece) const {
     std::size_t begin = 0;
@@ -392,8 +347,7 @@ class Reader {
     return true;
   }
 
-  /// Reads a row; returns the number of its columns.
-  std::size_t read_row(std::string_view line, std::size_t number, Piece& piece) const {
+  void read_row(std::string_view line, Piece& piece) const {
     Cells cells(line, layout_.separator, layout_.has_quotes);
     std::size_t c = 0;
     std::string_view word;
@@ -402,24 +356,31 @@ class Reader {
       double value = kMissing;
       if (role == Role::skipped || role == Role::carried || !cells.number(value)) {
         if (!cells.word(word)) {
-          error(piece, number, "a double quote without an end: add it, or say --quote none");
-          return 0;
+          piece.error = "a double quote without an end: add it, or say --quote none";
+          return;
         }
-        if (role == Role::carried && !piece.has_words[c]) piece.has_words[c] = is_name_of_digits(word);
+        if (role == Role::carried) {
+          piece.rows.texts[c].push_back(layout_.has_quotes ? without_doubled_quotes(word)
+                                                           : std::string(word));
+          if (!piece.has_words[c]) piece.has_words[c] = is_name_of_digits(word);
+        }
         if (role != Role::skipped && (piece.has_words[c] || !is_number(word, value))) {
           value = kMissing;
           if (const std::string wrong = why_not(word, c, role); !wrong.empty()) {
             // Look for another separator before blaming a word.
             const std::string other = of_other_count(line, 0, layout_);
-            error(piece, number, other.rfind("separated", 0) == 0 && layout_.columns > 1 ? other : wrong);
-            return 0;
+            piece.error = other.rfind("separated", 0) == 0 && layout_.columns > 1 ? other : wrong;
+            return;
           }
           if (role == Role::carried && !is_missing(word)) piece.has_words[c] = 1;
         }
       }
       if (role != Role::skipped) piece.rows.numbers[c].push_back(value);
     }
-    return c;
+    if (c == 0) return;
+    if (c != layout_.columns) piece.error = of_other_count(line, c, layout_);
+    piece.rows.lines.push_back(piece.newlines);
+    piece.rows.segments.push_back(static_cast<double>(piece.segments));
   }
 
   /// Why the word is not allowed in the column; empty: it is.
@@ -472,8 +433,8 @@ std::vector<std::pair<std::size_t, std::size_t>> fixed_widths(const std::string&
 
 std::string with_tabs(std::string_view text, const std::vector<std::pair<std::size_t, std::size_t>>& widths) {
   std::string table;
-  Lines lines(text, 1);
-  for (std::string_view line; lines.next(line); table += '\n') {
+  for (; !text.empty(); table += '\n') {
+    const std::string_view line = take_line(text);
     if (trimmed(line).empty()) continue;
     for (std::size_t k = 0; k < widths.size(); ++k) {
       const auto [first, last] = widths[k];
@@ -488,10 +449,9 @@ std::string with_tabs(std::string_view text, const std::vector<std::pair<std::si
 namespace {
 
 /// True if the next line with a content is a header line that names coordinates.
-bool is_before_header(Lines lines, const TextFormat& format) {
-  std::string_view line;
-  while (lines.next(line)) {
-    line = trimmed(line);
+bool is_before_header(std::string_view text, const TextFormat& format) {
+  while (!text.empty()) {
+    const std::string_view line = trimmed(take_line(text));
     if (line.empty()) continue;
     TextLayout layout;
     layout.separator = format.separator != '\0' ? format.separator : separator_of(line);
@@ -514,11 +474,10 @@ TextLayout layout_of(std::string_view text, const std::string& file, const TextF
   const std::size_t mark = text.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0;
   if (text.find('\n') == text.npos && trimmed(text).find('\r') != text.npos)
     fail(file, 1, "lines end with CR alone: end them with LF, for example by `tr '\\r' '\\n'`");
-  Lines lines(text.substr(mark), 1);
-  std::string_view line, comment;
+  std::string_view rest = text.substr(mark), comment;
   bool has_row = false;
-  while (!has_row && lines.next(line)) {
-    const std::string_view content = trimmed(line);
+  for (std::size_t number = 1; !has_row && !rest.empty(); ++number) {
+    const std::string_view line = take_line(rest), content = trimmed(line);
     if (content.empty() || content[0] == '>') continue;
     if (begins_comment(content[0]) && error_at(content).empty()) {
       comment = content.substr(1);
@@ -528,33 +487,33 @@ TextLayout layout_of(std::string_view text, const std::string& file, const TextF
     const std::string_view plain = is_whole ? content : trimmed(without_comment(content));
     if (layout.header_line == 0) layout.separator = separator_in(plain);
     const std::vector<std::string> cells = split(plain, layout.separator, layout.has_quotes);
-    double number = 0;
-    if (!cells.empty() && !is_number(cells[0], number) && !has_place(layout.names) &&
-        is_before_header(lines, format)) {  // a title
+    double n = 0;
+    if (!cells.empty() && !is_number(cells[0], n) && !has_place(layout.names) &&
+        is_before_header(rest, format)) {  // a title
       layout.header_line = 0;
       continue;
     }
     if (is_header(cells)) {
       if (layout.header_line > 0)
-        fail(file, lines.number(),
+        fail(file, number,
              fmt::format(
                  "a second header line, after the one in line {}: remove one of them, or put # before it",
                  layout.header_line));
-      layout.header_line = lines.number();
+      layout.header_line = number;
       // The names in a header may contain #.
       layout.separator = separator_in(content);
       set_names(layout, split(content, layout.separator, layout.has_quotes));
       continue;
     }
-    if (double n = 0; layout.header_line == 0 && layout.line_of_count == 0 && cells.size() == 1 &&
-                      is_number(cells[0], n) && n >= 1 && n == std::floor(n)) {
-      layout.line_of_count = lines.number();
+    if (layout.header_line == 0 && layout.line_of_count == 0 && cells.size() == 1 && is_number(cells[0], n) &&
+        n >= 1 && n == std::floor(n)) {
+      layout.line_of_count = number;
       layout.count = static_cast<std::size_t>(std::min(n, 1e18));
       continue;
     }
     has_row = true;
-    layout.begin = mark + lines.begin();
-    layout.line = lines.number();
+    layout.begin = static_cast<std::size_t>(line.data() - text.data());
+    layout.line = number;
     layout.columns = layout.header_line > 0 ? layout.names.size() : cells.size();
   }
   if (!has_row) {
@@ -598,7 +557,7 @@ TextRows rows_of(std::string_view text, const std::string& file, const TextLayou
   double segments = 0;
   std::vector<char> has_words(layout.columns);
   for (Piece& piece : pieces) {
-    if (piece.error_line > 0) fail(file, line + piece.error_line, piece.error);
+    if (!piece.error.empty()) fail(file, line + piece.newlines, piece.error);
     for (std::size_t& l : piece.rows.lines) l += line;
     for (double& s : piece.rows.segments) s += segments;
     count += piece.rows.lines.size();
@@ -613,23 +572,21 @@ TextRows rows_of(std::string_view text, const std::string& file, const TextLayou
              count));
 
   TextRows all = std::move(pieces[0].rows);
-  const auto append = [&](auto& to, const auto& from) {
+  const auto append = [&](auto& to, auto& from) {
     to.reserve(count);
-    to.insert(to.end(), from.begin(), from.end());
+    to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
   };
   for (std::size_t k = 1; k < pieces.size(); ++k) {
     append(all.lines, pieces[k].rows.lines);
     append(all.segments, pieces[k].rows.segments);
-    for (std::size_t c = 0; c < layout.columns; ++c) append(all.numbers[c], pieces[k].rows.numbers[c]);
+    for (std::size_t c = 0; c < layout.columns; ++c) {
+      append(all.numbers[c], pieces[k].rows.numbers[c]);
+      append(all.texts[c], pieces[k].rows.texts[c]);
+    }
   }
   if (segments == 0) all.segments.clear();
-  all.texts.resize(layout.columns);
-  std::vector<std::size_t> of_texts;
-  for (std::size_t c = 0; c < layout.columns; ++c) {
+  for (std::size_t c = 0; c < layout.columns; ++c)
     if (has_words[c]) all.numbers[c].clear();
-    if (roles[c] == Role::carried) of_texts.push_back(c);
-  }
-  if (!of_texts.empty()) reader.read_texts(rows, of_texts, all);
   return all;
 }
 

@@ -8,8 +8,7 @@ namespace files {
 namespace {
 
 [[noreturn]] void refuse(const std::string& file) {
-  throw std::runtime_error(
-      file + ": a NetCDF file, which this build cannot write: build with libnetcdf-dev");
+  throw std::runtime_error(file + ": a NetCDF file, which this build cannot write: build with libnetcdf-dev");
 }
 
 }  // namespace

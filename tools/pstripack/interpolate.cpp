@@ -189,8 +189,7 @@ void interpolate(Options& options) {
     if (!options.points.empty()) return read_points(options);
     files::Nodes all;
     all.given = grid.places();
-    all.points =
-        files::points_of({all.given.lon.data(), all.given.lat.data(), 1, true, true}, all.given.lon.size());
+    all.points = files::points_of(all.given);
     return all;
   });
   const Interpolation interpolation = progress.step("triangulating", [&] {

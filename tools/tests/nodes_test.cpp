@@ -107,12 +107,6 @@ TEST(text, other_radians_are_what_they_are) {
   }
 }
 
-TEST(angles, of_longitude_and_latitude_may_have_different_units) {
-  const double lon[] = {90, 180}, lat[] = {0, std::acos(0.0)};
-  EXPECT_EQ(points_of({lon, lat, 1, true, false}, 2), (Points{{0, 1, 0}, {0, 0, 1}}));
-  EXPECT_EQ(points_of({lat, lon, 1, false, true}, 1), (Points{{0, 0, 1}}));
-}
-
 TEST(text, latitudes_beyond_the_pole_are_refused_with_line_and_remedy) {
   expect_error("0 0\n45 170\n",
                "node 2 (line 2): latitude 170 is beyond the pole: the columns are 'lon lat'");
