@@ -1,6 +1,7 @@
 #include "files/map_rings.h"
 
 #include <algorithm>
+#include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -268,13 +269,16 @@ std::vector<std::int32_t> merged_corners(const Faces& faces) {
   return merged;
 }
 
+MapCorner corner_at(const Faces& faces, std::int32_t corner, const LonLat& angles) {
+  const auto i = static_cast<std::size_t>(corner) - 1;
+  return {faces.points[i], wrapped(angles.lon[i]), angles.lat[i]};
+}
+
 MapRing ring_of(const Faces& faces, std::size_t face, const LonLat& angles,
                 const std::vector<std::int32_t>& corner) {
   MapRing ring;
-  for (std::size_t k = faces.begin[face]; k < faces.begin[face + 1]; ++k) {
-    const auto i = static_cast<std::size_t>(corner[k]) - 1;
-    ring.push_back({faces.points[i], wrapped(angles.lon[i]), angles.lat[i]});
-  }
+  for (std::size_t k = faces.begin[face]; k < faces.begin[face + 1]; ++k)
+    ring.push_back(corner_at(faces, corner[k], angles));
   return ring;
 }
 
@@ -494,13 +498,13 @@ class MapLines::Arc {
   /// Notes what must stay on its side of this arc: the node of a face, and the rest of its border. Where the
   /// border has many corners, a diagonal stands for the arcs beyond it.
   void take_face(const MapLines& all, std::size_t face, std::size_t slot) {
-    if (!all.faces_.centres.empty()) nodes_[number_of_nodes_++] = all.faces_.centres[face];
+    if (!all.faces_.centres.empty()) nodes_.push_back(all.faces_.centres[face]);
     const auto point = [&](std::size_t k) { return all.point(all.corner_[k]); };
     const Point u = ends_[0].p, normal = cross(u, minus(ends_[1].p, u));
     const double scale = 1 / length(normal);
     const auto end_at = [&](const Point& p) { return p == ends_[0].p ? 0 : p == ends_[1].p ? 1 : -1; };
     const auto take = [&](const Point& from, const Point& to) {
-      others_[number_of_others_++] = {from, to, std::max(end_at(from), end_at(to))};
+      others_.push_back({from, to, std::max(end_at(from), end_at(to))});
       if (end_at(to) < 0) gap_ = std::min(gap_, std::fabs(dot(normal, minus(to, u))) * scale);
     };
     std::size_t first = all.after(face, slot), last = slot;
@@ -523,18 +527,15 @@ class MapLines::Arc {
     const double off = distance_of_line(a, b);
     if (off > kStraight) return false;
     if (off < kRounding) return true;
-    for (int k = 0; k < number_of_nodes_; ++k)
-      if (const Point& node = nodes_[k];
-          node != a.p && node != b.p && off > kOfDistance * distance_to_arc(node, a.p, b.p))
-        return false;
+    for (const Point& node : nodes_)
+      if (node != a.p && node != b.p && off > kOfDistance * distance_to_arc(node, a.p, b.p)) return false;
     const double ab = distance(a.p, b.p);
     const auto fits = [&](double deviation, double gap) {
       return deviation <= kOfGap * gap ||
              deviation <=
                  kOfGap * kLeastAngle * std::min(distance(b.p, ends_[0].p), distance(a.p, ends_[1].p));
     };
-    for (int k = 0; k < number_of_others_; ++k) {
-      const Other& other = others_[k];
+    for (const Other& other : others_) {
       if (other.end >= 0 && (other.end == 0 ? a : b).p == ends_[other.end].p) {
         // They meet in an angle: the line leaves its arc with a slope of 4 off / ab or less.
         const Point &tip = ends_[other.end].p, &far = (other.end == 0 ? b : a).p,
@@ -564,17 +565,15 @@ class MapLines::Arc {
   }
 
   MapCorner ends_[2];
-  int number_of_nodes_ = 0, number_of_others_ = 0;
-  Point nodes_[2];
-  Other others_[2 * (2 * kMostArcs + 1)];
+  boost::container::static_vector<Point, 2> nodes_;
+  boost::container::static_vector<Other, 2 * (2 * kMostArcs + 1)> others_;
   double gap_ = 1;  ///< smallest distance of the other arcs' corners from the great circle of this arc
 };
 
 MapLines::MapLines(const Faces& faces)
     : faces_(faces),
       angles_(angles_of(faces.points, faces.given_points, true)),
-      corner_(merged_corners(faces)),
-      is_bent_(faces.points.size()) {
+      corner_(merged_corners(faces)) {
   const auto side = [&](std::size_t f, std::size_t k) {
     const auto [low, high] = std::minmax(corner_[k], corner_[after(f, k)]);
     return FaceSide{low, high, f, k};
@@ -588,16 +587,9 @@ MapLines::MapLines(const Faces& faces)
     }
   });
   faces.for_each_corner([&](std::size_t f, std::size_t k) {
-    if (!bends[k]) return;
-    bent_.push_back(side(f, k));
-    is_bent_[static_cast<std::size_t>(bent_.back().low) - 1] = true;
+    if (bends[k]) bent_.push_back(side(f, k));
   });
   std::sort(bent_.begin(), bent_.end());
-}
-
-MapCorner MapLines::at(std::int32_t corner) const {
-  const auto i = static_cast<std::size_t>(corner) - 1;
-  return {faces_.points[i], wrapped(angles_.lon[i]), angles_.lat[i]};
 }
 
 std::size_t MapLines::after(std::size_t face, std::size_t slot) const {
@@ -616,7 +608,6 @@ std::size_t MapLines::before(std::size_t face, std::size_t slot) const {
 
 MapRing MapLines::corners_between(std::int32_t from, std::int32_t to) const {
   const auto [low, high] = std::minmax(from, to);
-  if (!is_bent_[static_cast<std::size_t>(low) - 1]) return {};
   const auto [first, last] = std::equal_range(
       bent_.begin(), bent_.end(), FaceSide{low, high, 0, 0},
       [](const FaceSide& a, const FaceSide& b) { return std::tie(a.low, a.high) < std::tie(b.low, b.high); });

@@ -12,6 +12,7 @@
 #include "files/nodes.h"
 #include "geometry/predicates.h"
 #include "lists/adjacency_lists.h"
+#include "stripack/list_queries.h"
 #include "trmesh/trmesh.h"
 
 namespace files {
@@ -65,6 +66,14 @@ struct CoincidentNodes : NoMesh {
 /// ranks.
 using Trmesh = std::function<pstripack::TrmeshResult(const pstripack::TrmeshCall&)>;
 void set_trmesh(Trmesh trmesh);
+
+/// Calls visit(neighbour) for the neighbours of a node; indices from 0.
+template <class Visit>
+void for_each_neighbour(const pstripack::ListReader<std::int32_t>& reader, std::size_t node,
+                        const Visit& visit) {
+  reader.for_each_neighbour(static_cast<std::int32_t>(node) + 1,
+                            [&](std::int32_t neighbour) { visit(static_cast<std::size_t>(neighbour) - 1); });
+}
 
 /// The Delaunay triangulation of at least three nodes, none of them a zero vector. Throws NoMesh if they lie
 /// on one great circle, if two coincide, or if there are too many.

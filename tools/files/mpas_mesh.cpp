@@ -99,25 +99,18 @@ void find_cells(MpasMesh& mesh) {
       for (const Index cell : mesh.cells_on_vertex[v])
         if (cell != kNone) mesh.vertices_on_cell[at(next[at(cell)]++)] = static_cast<Index>(v);
   }
-  const int threads = pstripack::threads_for(10 * n);
-  pstripack::ErrorsOfThreads errors(at(threads));
-  pstripack::parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int piece) {
-    errors.keep(at(piece), [&] {
-      std::vector<Corner> corners;
-      for (std::size_t c = first; c < last; ++c) {
-        Index* const ring = mesh.vertices_on_cell.data() + mesh.begin[c];
-        if (mesh.sides(c) == 0) throw NoMesh(fmt::format("cell {}: has no vertex", c + 1));
-        corners.clear();
-        for (std::size_t k = 0; k < mesh.sides(c); ++k) {
-          const Three& around = mesh.cells_on_vertex[at(ring[k])];
-          const std::size_t place = place_of(static_cast<Index>(c), around);
-          corners.push_back({around[(place + 1) % 3], around[(place + 2) % 3], ring[k]});
-        }
-        order_ring(mesh, static_cast<Index>(c), corners, ring);
-      }
-    });
-  });
-  errors.rethrow();
+  std::vector<Corner> corners;
+  for (std::size_t c = 0; c < n; ++c) {
+    Index* const ring = mesh.vertices_on_cell.data() + mesh.begin[c];
+    if (mesh.sides(c) == 0) throw NoMesh(fmt::format("cell {}: has no vertex", c + 1));
+    corners.clear();
+    for (std::size_t k = 0; k < mesh.sides(c); ++k) {
+      const Three& around = mesh.cells_on_vertex[at(ring[k])];
+      const std::size_t place = place_of(static_cast<Index>(c), around);
+      corners.push_back({around[(place + 1) % 3], around[(place + 2) % 3], ring[k]});
+    }
+    order_ring(mesh, static_cast<Index>(c), corners, ring);
+  }
 }
 
 // ---- edges ------------------------------------------------------------------------------------------------

@@ -58,23 +58,17 @@ std::string paths_of(const std::vector<const Variable*>& variables) {
   return listed(names);
 }
 
-/// True if a 64-bit integer of the values is not a double.
-bool need_digits(const Variable& v, const std::vector<double>& values) {
-  return (v.type == NC_INT64 || v.type == NC_UINT64) &&
-         std::any_of(values.begin(), values.end(), [](double x) { return std::fabs(x) > 0x1p53; });
-}
-
 /// A variable of numbers or texts.
 Column read_column(const File& file, const Variable& v) {
   Column column{v.name(), file.text(v, "long_name"), file.text(v, "units")};
   if (v.has_numbers()) column.numbers = file.values(v);
-  const bool is_packed = v.has_numbers() && file.is_packed(v);
-  if (!v.has_numbers() || (!is_packed && !file.is_read_in_parts() && need_digits(v, column.numbers))) {
+  const bool are_integers = v.type != NC_FLOAT && v.type != NC_DOUBLE && !file.is_packed(v);
+  const bool need_digits = are_integers && largest_of(column.numbers) > 0x1p53 && !file.is_read_in_parts();
+  if (!v.has_numbers() || need_digits) {
     column.numbers.clear();
     column.texts = file.texts(v);
-    return column;
   }
-  column.whole = v.type != NC_FLOAT && v.type != NC_DOUBLE && !is_packed &&
+  column.whole = are_integers && !column.is_text() &&
                  std::all_of(column.numbers.begin(), column.numbers.end(),
                              [](double x) { return -0x1p31 <= x && x < 0x1p31; });
   return column;
@@ -131,12 +125,11 @@ constexpr std::pair<const char*, const char*> kUsual[] = {
 using Pair = std::pair<const Variable*, const Variable*>;
 
 /// The position of a pair in the list of usual names; behind its end if it is not there.
-std::size_t rank_of(const Pair& pair) {
-  std::size_t rank = 0;
-  while (rank < std::size(kUsual) &&
-         (pair.first->name() != kUsual[rank].first || pair.second->name() != kUsual[rank].second))
-    ++rank;
-  return rank;
+std::ptrdiff_t rank_of(const Pair& pair) {
+  const auto are_names = [&](const auto& names) {
+    return pair.first->name() == names.first && pair.second->name() == names.second;
+  };
+  return std::find_if(std::begin(kUsual), std::end(kUsual), are_names) - std::begin(kUsual);
 }
 
 /// The longitudes and latitudes of a file by what its attributes and names say.
@@ -179,13 +172,6 @@ struct Candidates {
   }
 };
 
-std::string why_not_rotated(const std::string& names) {
-  return fmt::format(
-      "{}: angles of a rotated pole, not longitudes and latitudes, which `cdo "
-      "setgridtype,curvilinear` adds to the file; if they are not, say --columns LON,LAT",
-      names);
-}
-
 /// The longitudes and latitudes that the attribute `coordinates` of the variable `value` names. Else the
 /// candidates whose dimensions are those of `value`, of these those with an attribute that says what they
 /// are, and of these a usual pair, or the only one.
@@ -194,7 +180,10 @@ Pair lon_lat_of(const File& file, const std::string& value) {
   const std::vector<const Variable*>&lons = candidates.lons, &lats = candidates.lats,
                           &rotated = candidates.rotated;
   if (lons.empty() && lats.empty()) {
-    if (!rotated.empty()) file.fail(why_not_rotated(paths_of(rotated)));
+    if (!rotated.empty())
+      file.fail(paths_of(rotated) +
+                ": angles of a rotated pole, not longitudes and latitudes, which `cdo "
+                "setgridtype,curvilinear` adds to the file; if they are not, say --columns LON,LAT");
     if (file.find("nodeCoords") != nullptr && file.find("elementConn") != nullptr)
       file.fail(
           "an ESMF mesh: make a table of its corners, nodeCoords, or of its cells, centerCoords, by `python3 "
@@ -553,10 +542,11 @@ Columns read_columns(const File& file, const Places& places, const Names& wanted
 }
 
 void read_notes(const File& file, Notes& notes) {
-  for (const std::string& name : file.attributes())
-    if (is_note(name)) notes[name] = file.text(name.c_str());
+  for (const std::string& name : file.global_attributes())
+    if (is_note(name)) notes[name] = file.text(file.global(), name.c_str());
   // What MPAS' tools write in a mesh that they make of this one.
-  const std::string parents = file.text("file_id"), older = file.text("parent_id");
+  const std::string parents = file.text(file.global(), "file_id"),
+                    older = file.text(file.global(), "parent_id");
   if (!parents.empty()) notes["parent_id"] = parents + (older.empty() ? "" : "\n" + older);
 }
 
@@ -613,7 +603,7 @@ Nodes read_netcdf(const std::string& name, const ReadOptions& options, const std
   if (nodes.density.size() != nodes.points.size()) nodes.density.clear();
   if (options.with_triangles && x != nullptr && file.find("cellsOnVertex") != nullptr)
     read_mpas_triangles(file, nodes);
-  const double radius = file.number("sphere_radius", 1);
+  const double radius = file.number(file.global(), "sphere_radius", 1);
   if (radius > 0 && std::isfinite(radius)) nodes.radius = radius;
   return nodes;
 }

@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/parallel_for.h"
 #include "files/nearest.h"
 #include "numbers.h"
 #include "text_file.h"
@@ -304,41 +303,45 @@ std::string of_other_count(std::string_view line, std::size_t found, const TextL
       commas_split_numbers ? "write a decimal comma as a point" : "complete the row, or remove it");
 }
 
-/// The part of a text that one thread reads.
-struct Piece {
-  TextRows rows;
-  std::vector<char> has_words;  ///< of each column: true if a word in it is not a number
-  std::size_t newlines = 0, segments = 0;
-  std::string error;  ///< in the last line
-};
-
 class Reader {
  public:
-  Reader(const TextLayout& layout, const std::vector<Role>& roles)
+  Reader(const TextLayout& layout, const std::vector<Role>& roles, const std::string& file)
       : layout_(layout),
         roles_(roles),
-        nan_in_places_(std::find(roles.begin(), roles.end(), Role::value) != roles.end()) {}
+        file_(file),
+        nan_in_places_(std::find(roles.begin(), roles.end(), Role::value) != roles.end()),
+        line_(layout.line - 1),
+        has_words_(layout.columns) {
+    rows_.numbers.resize(layout.columns);
+    rows_.texts.resize(layout.columns);
+  }
 
-  void read(std::string_view text, Piece& piece) const {
-    piece.rows.numbers.resize(layout_.columns);
-    piece.rows.texts.resize(layout_.columns);
-    piece.has_words.resize(layout_.columns);
-    while (!text.empty() && piece.error.empty()) {
+  TextRows read(std::string_view text) {
+    while (!text.empty()) {
       std::string_view line = take_line(text);
-      ++piece.newlines;
-      if (is_row(line, piece)) read_row(line, piece);
+      ++line_;
+      if (is_row(line)) read_row(line);
     }
+    if (layout_.line_of_count > 0 && layout_.count != rows_.lines.size())
+      fail(file_, layout_.line_of_count,
+           fmt::format(
+               "a single number is the count of the points that follow; there are {}: correct or remove it",
+               rows_.lines.size()));
+    if (segments_ == 0) rows_.segments.clear();
+    for (std::size_t c = 0; c < layout_.columns; ++c)
+      if (has_words_[c]) rows_.numbers[c].clear();
+    return std::move(rows_);
   }
 
  private:
   /// Removes comments. False if nothing remains.
-  bool is_row(std::string_view& line, Piece& piece) const {
+  bool is_row(std::string_view& line) {
     std::size_t begin = 0;
     while (begin < line.size() && is_space(line[begin])) ++begin;
     if (begin == line.size()) return false;
     if (begins_comment(line[begin]) && error_at(line.substr(begin)).empty()) return false;
     if (line[begin] == '>') {
-      ++piece.segments;
+      ++segments_;
       return false;
     }
     if (layout_.header_line == 0 && layout_.has_quotes && layout_.separator != ' ' &&
@@ -347,7 +350,7 @@ class Reader {
     return true;
   }
 
-  void read_row(std::string_view line, Piece& piece) const {
+  void read_row(std::string_view line) {
     Cells cells(line, layout_.separator, layout_.has_quotes);
     std::size_t c = 0;
     std::string_view word;
@@ -355,32 +358,28 @@ class Reader {
       const Role role = c < roles_.size() ? roles_[c] : Role::skipped;
       double value = kMissing;
       if (role == Role::skipped || role == Role::carried || !cells.number(value)) {
-        if (!cells.word(word)) {
-          piece.error = "a double quote without an end: add it, or say --quote none";
-          return;
-        }
+        if (!cells.word(word))
+          fail(file_, line_, "a double quote without an end: add it, or say --quote none");
         if (role == Role::carried) {
-          piece.rows.texts[c].push_back(layout_.has_quotes ? without_doubled_quotes(word)
-                                                           : std::string(word));
-          if (!piece.has_words[c]) piece.has_words[c] = is_name_of_digits(word);
+          rows_.texts[c].push_back(layout_.has_quotes ? without_doubled_quotes(word) : std::string(word));
+          if (!has_words_[c]) has_words_[c] = is_name_of_digits(word);
         }
-        if (role != Role::skipped && (piece.has_words[c] || !is_number(word, value))) {
+        if (role != Role::skipped && (has_words_[c] || !is_number(word, value))) {
           value = kMissing;
           if (const std::string wrong = why_not(word, c, role); !wrong.empty()) {
             // Look for another separator before blaming a word.
             const std::string other = of_other_count(line, 0, layout_);
-            piece.error = other.rfind("separated", 0) == 0 && layout_.columns > 1 ? other : wrong;
-            return;
+            fail(file_, line_, other.rfind("separated", 0) == 0 && layout_.columns > 1 ? other : wrong);
           }
-          if (role == Role::carried && !is_missing(word)) piece.has_words[c] = 1;
+          if (role == Role::carried && !is_missing(word)) has_words_[c] = true;
         }
       }
-      if (role != Role::skipped) piece.rows.numbers[c].push_back(value);
+      if (role != Role::skipped) rows_.numbers[c].push_back(value);
     }
     if (c == 0) return;
-    if (c != layout_.columns) piece.error = of_other_count(line, c, layout_);
-    piece.rows.lines.push_back(piece.newlines);
-    piece.rows.segments.push_back(static_cast<double>(piece.segments));
+    if (c != layout_.columns) fail(file_, line_, of_other_count(line, c, layout_));
+    rows_.lines.push_back(line_);
+    rows_.segments.push_back(segments_);
   }
 
   /// Why the word is not allowed in the column; empty: it is.
@@ -399,7 +398,12 @@ class Reader {
 
   const TextLayout& layout_;
   const std::vector<Role>& roles_;
+  const std::string& file_;
   const bool nan_in_places_;
+  std::size_t line_;
+  double segments_ = 0;
+  std::vector<bool> has_words_;  ///< of each column: a word in it is not a number
+  TextRows rows_;
 };
 
 }  // namespace
@@ -535,59 +539,7 @@ TextLayout layout_of(std::string_view text, const std::string& file, const TextF
 
 TextRows rows_of(std::string_view text, const std::string& file, const TextLayout& layout,
                  const std::vector<Role>& roles) {
-  const std::string_view rows = text.substr(layout.begin);
-  const Reader reader(layout, roles);
-  const int threads = pstripack::threads_for(rows.size() / 16);
-  std::vector<Piece> pieces(static_cast<std::size_t>(threads));
-  pstripack::ErrorsOfThreads errors(pieces.size());
-  const auto begin_of_line = [&](std::size_t offset) {
-    const std::size_t newline = offset == 0 ? 0 : rows.find('\n', offset - 1);
-    return offset == 0 ? 0 : newline == rows.npos ? rows.size() : newline + 1;
-  };
-  pstripack::parallel_pieces(rows.size(), threads, [&](std::size_t first, std::size_t last, int piece) {
-    const auto k = static_cast<std::size_t>(piece);
-    errors.keep(k, [&] {
-      const std::size_t begin = begin_of_line(first), end = begin_of_line(last);
-      reader.read(rows.substr(begin, end - begin), pieces[k]);
-    });
-  });
-  errors.rethrow();
-
-  std::size_t count = 0, line = layout.line - 1;
-  double segments = 0;
-  std::vector<char> has_words(layout.columns);
-  for (Piece& piece : pieces) {
-    if (!piece.error.empty()) fail(file, line + piece.newlines, piece.error);
-    for (std::size_t& l : piece.rows.lines) l += line;
-    for (double& s : piece.rows.segments) s += segments;
-    count += piece.rows.lines.size();
-    line += piece.newlines;
-    segments += static_cast<double>(piece.segments);
-    for (std::size_t c = 0; c < layout.columns; ++c) has_words[c] = has_words[c] || piece.has_words[c];
-  }
-  if (layout.line_of_count > 0 && layout.count != count)
-    fail(file, layout.line_of_count,
-         fmt::format(
-             "a single number is the count of the points that follow; there are {}: correct or remove it",
-             count));
-
-  TextRows all = std::move(pieces[0].rows);
-  const auto append = [&](auto& to, auto& from) {
-    to.reserve(count);
-    to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
-  };
-  for (std::size_t k = 1; k < pieces.size(); ++k) {
-    append(all.lines, pieces[k].rows.lines);
-    append(all.segments, pieces[k].rows.segments);
-    for (std::size_t c = 0; c < layout.columns; ++c) {
-      append(all.numbers[c], pieces[k].rows.numbers[c]);
-      append(all.texts[c], pieces[k].rows.texts[c]);
-    }
-  }
-  if (segments == 0) all.segments.clear();
-  for (std::size_t c = 0; c < layout.columns; ++c)
-    if (has_words[c]) all.numbers[c].clear();
-  return all;
+  return Reader(layout, roles, file).read(text.substr(layout.begin));
 }
 
 std::vector<std::size_t> columns_named(const std::string& wanted, const TextLayout& layout,

@@ -353,22 +353,6 @@ TEST(tables, that_cannot_be_used_are_refused_with_line_reason_and_remedy) {
   expect_error("350 1\n", "more than two turns in radians; --units degrees?", kRadians);
 }
 
-TEST(tables, are_the_same_read_by_any_number_of_threads) {
-  std::string text = "lon,lat,name,n\n";
-  for (int i = 0; i < 40000; ++i)
-    text += fmt::format("{},{},n{},{}\n", i * 0.0090001, i * 0.002 - 40, i, i % 7 == 0 ? "" : "5");
-  const Nodes nodes = read_bytes(text, with_columns());
-  ASSERT_EQ(nodes.points.size(), 40000u);
-  for (std::size_t i : {0u, 19999u, 20000u, 39999u}) {
-    EXPECT_EQ(nodes.lines[i], i + 2);
-    EXPECT_EQ(nodes.given.lon[i], static_cast<double>(i) * 0.0090001);
-    EXPECT_EQ(nodes.columns.at(0).texts[i], fmt::format("n{}", i));
-  }
-  EXPECT_EQ(
-      error_of(text + "1,2,3\n", with_columns()).substr(error_of(text + "1,2,3\n", with_columns()).find(':')),
-      ":40002: found 3 columns where the header has 4: complete the row, or remove it");
-}
-
 TEST(nodes, are_kept_with_all_that_belongs_to_them) {
   Nodes nodes = read_bytes("lon,lat,a,b\n10,1,x,1\n20,2,y,2\n30,3,z,3\n", with_columns());
   nodes.density = {7, 8, 9};
