@@ -175,6 +175,8 @@ def test_faces_of_more_than_three_corners_are_told(tmp_path):
     (BARE, "lon=0,180,3; lat=-90,30,1;", [], "180,30\n"),  # no radians
     (BARE, "lon=1,2,3; lat=1,2,1;", [], "variable lon: units ''; expected degrees or radians"),
     (BARE, "lon=1,2,3; lat=1,2,1;", ["--units", "degrees"], "1,1\n2,2\n3,1\n"),
+    ('double lon(n); lon:units="radian"; double lat(n); lat:units="degrees_north";', "lon=0,1,2; lat=0,50,-3;", [],
+     "57.29577951308232,50\n"),
     # Nodes that are none.
     ("double depth(n);", "", [], "expected variables xCell"),
     ("double lon(n);", "", [], "there is no variable of latitudes beside lon"),
