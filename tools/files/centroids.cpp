@@ -1,12 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <tuple>
 #include <utility>
 
 #include "base/parallel_for.h"
 #include "files/measures.h"
 #include "files/mesh.h"
+#include "files/pieces.h"
 #include "geometry/measures.h"
 
 namespace files {
@@ -66,21 +65,17 @@ Point centroid(std::size_t corners, const PointAt& point, const HalfTurn& half_t
 }  // namespace
 
 void find_half_turns(Faces& cells, const std::int32_t* beyond, const pstripack::Directions& nodes) {
-  const auto point = [&](std::size_t k) {
-    return cells.points[static_cast<std::size_t>(cells.corner[k]) - 1];
-  };
-  for (std::size_t f = 0; f < cells.size(); ++f)
-    for (std::size_t k = cells.begin[f]; k < cells.begin[f + 1]; ++k) {
-      const std::size_t end = k + 1 < cells.begin[f + 1] ? k + 1 : cells.begin[f];
-      if (dot(point(k), point(end)) >= kHalfTurn) continue;
-      const Point normal = accurate_difference(direction_of(nodes, static_cast<pstripack::index_t>(f)),
-                                               direction_of(nodes, beyond[end] - 1));
-      cells.half_turns.push_back({f, cells.corner[k], cells.corner[end], unit(normal)});
-    }
+  cells.for_each_corner([&](std::size_t f, std::size_t k) {
+    const std::size_t end = cells.after(f, k);
+    if (dot(cells.point(k), cells.point(end)) >= kHalfTurn) return;
+    const Point normal = accurate_difference(direction_of(nodes, static_cast<pstripack::index_t>(f)),
+                                             direction_of(nodes, beyond[end] - 1));
+    cells.half_turns.push_back({f, cells.corner[k], cells.corner[end], unit(normal)});
+  });
 }
 
 void divide_half_turns(Faces& cells) {
-  std::map<std::tuple<double, double, double>, std::int32_t> middles;  // both cells compute the same bits
+  NumberOfPoint middles;  // both cells compute the same bits
   Faces divided = cells;
   divided.corner.clear();
   auto side = cells.half_turns.begin();
@@ -106,28 +101,22 @@ void divide_half_turns(Faces& cells) {
 
 std::vector<Point> centroids(const Faces& faces) {
   std::vector<Point> centres(faces.size());
-  pstripack::parallel_pieces(
-      centres.size(), pstripack::threads_for(8 * centres.size()),
-      [&](std::size_t first, std::size_t last, int) {
-        for (std::size_t f = first; f < last; ++f) {
-          const std::size_t corners = faces.corners(f);
-          const auto corner = [&](std::size_t k) { return faces.corner[faces.begin[f] + k]; };
-          const auto point = [&](std::size_t k) {
-            return faces.points[static_cast<std::size_t>(corner(k)) - 1];
-          };
-          const auto first = std::lower_bound(faces.half_turns.begin(), faces.half_turns.end(), f,
-                                              [](const HalfTurn& h, std::size_t of) { return h.face < of; });
-          // divide_half_turns() may have given the side a corner in its middle.
-          centres[f] = centroid(corners, point, [&](std::size_t k) -> const Point* {
-            const std::size_t before = (k + corners - 1) % corners, after = (k + 1) % corners;
-            for (auto h = first; h != faces.half_turns.end() && h->face == f; ++h)
-              if ((corner(k) == h->from && (corner(after) == h->to || corner((k + 2) % corners) == h->to)) ||
-                  (corner(before) == h->from && corner(after) == h->to))
-                return &h->normal;
-            return nullptr;
-          });
-        }
-      });
+  pstripack::parallel_for(centres.size(), 8 * centres.size(), [&](std::size_t f) {
+    const std::size_t corners = faces.corners(f);
+    const auto corner = [&](std::size_t k) { return faces.corner[faces.begin[f] + k]; };
+    const auto point = [&](std::size_t k) { return faces.point(faces.begin[f] + k); };
+    const auto first = std::lower_bound(faces.half_turns.begin(), faces.half_turns.end(), f,
+                                        [](const HalfTurn& h, std::size_t of) { return h.face < of; });
+    // divide_half_turns() may have given the side a corner in its middle.
+    centres[f] = centroid(corners, point, [&](std::size_t k) -> const Point* {
+      const std::size_t before = (k + corners - 1) % corners, after = (k + 1) % corners;
+      for (auto h = first; h != faces.half_turns.end() && h->face == f; ++h)
+        if ((corner(k) == h->from && (corner(after) == h->to || corner((k + 2) % corners) == h->to)) ||
+            (corner(before) == h->from && corner(after) == h->to))
+          return &h->normal;
+      return nullptr;
+    });
+  });
   return centres;
 }
 

@@ -11,7 +11,6 @@
 #include "files/pieces.h"
 #include "geometry/predicates.h"
 #include "point_sets.h"
-#include "stripack/list_queries.h"
 
 namespace files {
 namespace {

@@ -6,13 +6,9 @@
 #include <utility>
 
 #include "base/parallel_for.h"
+#include "files/measures.h"
 
 namespace files {
-namespace {
-
-constexpr double kDegreesPerRadian = 57.295779513082321;
-
-}  // namespace
 
 const Column* find(const Columns& columns, const std::string& name) {
   const auto found =
@@ -28,10 +24,7 @@ void make_names_differ(Columns& columns, std::vector<std::string> taken) {
 }
 
 Column whole_numbers(std::string name, std::string long_name, std::vector<double> numbers) {
-  Column column{std::move(name), std::move(long_name)};
-  column.numbers = std::move(numbers);
-  column.whole = true;
-  return column;
+  return {std::move(name), std::move(long_name), "", std::move(numbers), {}, true};
 }
 
 AngleUnit::AngleUnit(const std::string& text) {
@@ -50,15 +43,12 @@ AngleUnit::AngleUnit(const std::string& text) {
 
 LonLat::LonLat(const std::vector<pstripack::Point>& points, bool in_degrees)
     : lon(points.size()), lat(points.size()), degrees(in_degrees) {
-  const double scale = degrees ? kDegreesPerRadian : 1;
-  pstripack::parallel_pieces(points.size(), pstripack::threads_for(points.size()),
-                             [&](std::size_t first, std::size_t last, int) {
-                               for (std::size_t i = first; i < last; ++i) {
-                                 const pstripack::Point& p = points[i];
-                                 lon[i] = std::atan2(p.y, p.x) * scale;
-                                 lat[i] = std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y)) * scale;
-                               }
-                             });
+  const double scale = degrees ? kRadian : 1;
+  pstripack::parallel_for(points.size(), points.size(), [&](std::size_t i) {
+    const pstripack::Point& p = points[i];
+    lon[i] = std::atan2(p.y, p.x) * scale;
+    lat[i] = std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y)) * scale;
+  });
 }
 
 LonLat angles_of(const std::vector<pstripack::Point>& points, const LonLat& given, bool degrees) {
@@ -66,7 +56,7 @@ LonLat angles_of(const std::vector<pstripack::Point>& points, const LonLat& give
   LonLat angles = given;
   if (given.degrees == degrees) return angles;
   for (auto* const values : {&angles.lon, &angles.lat})
-    for (double& v : *values) v = degrees ? v * kDegreesPerRadian : v / kDegreesPerRadian;
+    for (double& v : *values) v = degrees ? v * kRadian : v / kRadian;
   angles.degrees = degrees;
   return angles;
 }

@@ -67,13 +67,4 @@ std::vector<Value> values_at(const std::vector<Value>& values, const std::vector
 Columns at_nodes(const Columns& columns, const std::vector<std::size_t>& nodes);
 LonLat at_nodes(const LonLat& angles, const std::vector<std::size_t>& nodes);
 
-/// Keeps the values with these indices, which increase.
-template <class Value>
-void keep(std::vector<Value>& values, const std::vector<std::size_t>& indices) {
-  if (values.empty()) return;
-  for (std::size_t k = 0; k < indices.size(); ++k)
-    if (indices[k] != k) values[k] = std::move(values[indices[k]]);
-  values.resize(indices.size());
-}
-
 }  // namespace files

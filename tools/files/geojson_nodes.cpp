@@ -244,11 +244,10 @@ Nodes read_geojson(const std::string& file, const ReadOptions& options, const st
   Columns columns = features.take_columns();
   std::vector<std::string> wanted;
   if (!options.columns.empty()) wanted = chosen(options, columns, file);
-  const Angles angles{nodes.given.lon.data(), nodes.given.lat.data(), 1, true, true};
-  if (const std::size_t bad = first_beyond_pole(angles, n); bad < n)
+  if (const std::size_t bad = first_beyond_pole(nodes.given); bad < n)
     throw std::runtime_error(
         fmt::format("{}: {}: latitude {} is beyond the pole: GeoJSON has [longitude, latitude] in degrees{}",
-                    file, nodes.place(bad), nodes.given.lat[bad], hint_beyond_pole(angles, n, "")));
+                    file, nodes.place(bad), nodes.given.lat[bad], hint_beyond_pole(nodes.given, "")));
   if (options.coordinates == Coordinates::xyz) {
     const std::vector<double>* axes[3];
     for (std::size_t k = 0; k < 3; ++k) {
@@ -264,7 +263,7 @@ Nodes read_geojson(const std::string& file, const ReadOptions& options, const st
     for (const char* const name : {"x", "y", "z", "lon", "lat"}) remove(columns, name);
   } else {
     take_given_angles(nodes, columns);
-    nodes.points = points_of({nodes.given.lon.data(), nodes.given.lat.data(), 1, true, true}, n);
+    nodes.points = points_of(nodes.given);
     make_names_differ(columns, {"lon", "lat"});
   }
 

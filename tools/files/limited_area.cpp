@@ -8,7 +8,6 @@
 
 #include "geometry/measures.h"
 #include "point_sets.h"
-#include "stripack/list_queries.h"
 
 namespace files {
 namespace {
@@ -88,14 +87,9 @@ std::vector<Region> LimitedArea::boxes() const {
 }
 
 LimitedArea box_area(std::string name, const Region& box) {
-  return {std::move(name),
-          {{1,
-            "",
-            {{{box.west, box.south},
-              {box.east, box.south},
-              {box.east, box.north},
-              {box.west, box.north},
-              {box.west, box.south}}}}}};
+  const Corner first{box.west, box.south}, second{box.east, box.south}, third{box.east, box.north},
+      fourth{box.west, box.north};
+  return {std::move(name), {{1, "", {{first, second, third, fourth, first}}}}};
 }
 
 LimitedArea polygon_area(const std::string& file, bool are_degrees) {
@@ -155,15 +149,7 @@ class Layers {
     throw std::runtime_error(area_.name + ": " + what);
   }
   std::string place(std::size_t cell) const {
-    const LonLat where({cells_[cell]}, true);
-    return fmt::format("lon {:.6g} lat {:.6g}", where.lon[0], where.lat[0]);
-  }
-
-  template <class Visit>
-  void for_each_neighbour(std::size_t cell, const Visit& visit) const {
-    reader_.for_each_neighbour(static_cast<std::int32_t>(cell) + 1, [&](std::int32_t neighbour) {
-      visit(static_cast<std::size_t>(neighbour) - 1);
-    });
+    return fmt::format("lon {:.6g} lat {:.6g}", longitude(cells_[cell]), latitude(cells_[cell]));
   }
 
   /// Square of the distance.
@@ -181,7 +167,7 @@ class Layers {
       const double here = apart(q, cell);
       std::size_t next = cell;
       double first = 2;
-      for_each_neighbour(cell, [&](std::size_t n) {
+      for_each_neighbour(reader_, cell, [&](std::size_t n) {
         const double nearer = here - apart(q, n);
         if (!(nearer > 0)) return;
         const double before = std::min(0.0, apart(p, cell) - apart(p, n));
@@ -202,7 +188,7 @@ class Layers {
       const std::size_t i = stack.back();
       stack.pop_back();
       visit(i);
-      for_each_neighbour(i, [&](std::size_t n) {
+      for_each_neighbour(reader_, i, [&](std::size_t n) {
         if (visited[n] || !enter(n)) return;
         visited[n] = true;
         stack.push_back(n);
@@ -216,7 +202,6 @@ class Layers {
     for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
       if (layer_[cell] != kUnknown) continue;
       const std::int32_t layer = area_.contains(cells_[cell]) ? 0 : kLeftOut;
-      has_cells_ = has_cells_ || layer == 0;
       flood(
           cell, visited, [&](std::size_t n) { return layer_[n] == kUnknown; },
           [&](std::size_t i) { layer_[i] = layer; });
@@ -225,12 +210,13 @@ class Layers {
 
   /// Throws if no node lies in the area; `cell`: one on its boundary.
   void check_cells(std::size_t cell) const {
-    bool has_cells = has_cells_;
+    bool has_cells = false;
     for (std::size_t i = 0; i < cells_.size() && !has_cells; ++i)
       has_cells = layer_[i] == 0 && area_.contains(cells_[i]);
     if (has_cells) return;
     double sum = 0, count = 0;
-    for_each_neighbour(cell, [&](std::size_t n) { sum += std::sqrt(apart(cells_[n], cell)), ++count; });
+    for_each_neighbour(reader_, cell,
+                       [&](std::size_t n) { sum += std::sqrt(apart(cells_[n], cell)), ++count; });
     fail(
         fmt::format("no cell has its centre in the region; those at {} are {:.2g} degrees wide: enlarge the "
                     "region, or take a finer mesh",
@@ -261,7 +247,7 @@ class Layers {
                           "smaller",
                           place(i), kLayers));
         if (layer < kLayers)
-          for_each_neighbour(i, [&](std::size_t n) {
+          for_each_neighbour(reader_, i, [&](std::size_t n) {
             if (layer_[n] != kLeftOut) return;
             layer_[n] = layer + 1;
             next.push_back(n);
@@ -274,7 +260,6 @@ class Layers {
   const pstripack::ListReader<std::int32_t> reader_;
   const std::vector<Point> cells_;
   std::vector<std::int32_t> layer_;
-  bool has_cells_ = false;
 };
 
 }  // namespace

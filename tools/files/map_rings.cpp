@@ -1,6 +1,7 @@
 #include "files/map_rings.h"
 
 #include <algorithm>
+#include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -23,6 +24,8 @@ constexpr double kStraight = 0.001 / kRadian, kBent = 0.0001 / kRadian;
 constexpr double kRounding = 1e-15;
 /// Corners closer than this to a meridian or parallel, in degrees, are on it.
 constexpr double kThin = kSamePlace * kRadian;
+
+double distance(const Point& a, const Point& b) { return length(minus(a, b)); }
 
 bool is_pole(const MapCorner& c) { return c.p.x == 0 && c.p.y == 0; }
 MapCorner pole(double z) { return {{0, 0, std::copysign(1.0, z)}, 0, std::copysign(90.0, z)}; }
@@ -255,28 +258,27 @@ std::vector<std::int32_t> merged_corners(const Faces& faces) {
     while (of(i) != i) i = of(i) = of(of(i));
     return i;
   };
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    for (std::size_t k = faces.begin[f]; k < faces.begin[f + 1]; ++k) {
-      const std::int32_t a = faces.corner[k],
-                         b = faces.corner[k + 1 < faces.begin[f + 1] ? k + 1 : faces.begin[f]];
-      const Point side =
-          minus(faces.points[static_cast<std::size_t>(a) - 1], faces.points[static_cast<std::size_t>(b) - 1]);
-      if (dot(side, side) >= kSamePlace * kSamePlace) continue;
-      const std::int32_t at_a = find(a), at_b = find(b);
-      first[static_cast<std::size_t>(std::max(at_a, at_b))] = std::min(at_a, at_b);
-    }
+  faces.for_each_corner([&](std::size_t f, std::size_t k) {
+    const std::size_t next = faces.after(f, k);
+    if (distance(faces.point(k), faces.point(next)) >= kSamePlace) return;
+    const std::int32_t a = find(faces.corner[k]), b = find(faces.corner[next]);
+    first[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  });
   std::vector<std::int32_t> merged(faces.corner.size());
   for (std::size_t k = 0; k < merged.size(); ++k) merged[k] = find(faces.corner[k]);
   return merged;
 }
 
+MapCorner corner_at(const Faces& faces, std::int32_t corner, const LonLat& angles) {
+  const auto i = static_cast<std::size_t>(corner) - 1;
+  return {faces.points[i], wrapped(angles.lon[i]), angles.lat[i]};
+}
+
 MapRing ring_of(const Faces& faces, std::size_t face, const LonLat& angles,
                 const std::vector<std::int32_t>& corner) {
   MapRing ring;
-  for (std::size_t k = faces.begin[face]; k < faces.begin[face + 1]; ++k) {
-    const auto i = static_cast<std::size_t>(corner[k]) - 1;
-    ring.push_back({faces.points[i], wrapped(angles.lon[i]), angles.lat[i]});
-  }
+  for (std::size_t k = faces.begin[face]; k < faces.begin[face + 1]; ++k)
+    ring.push_back(corner_at(faces, corner[k], angles));
   return ring;
 }
 
@@ -421,8 +423,6 @@ double area_on_map(const MapRing& ring) {
   return sum;
 }
 
-double distance(const Point& a, const Point& b) { return length(minus(a, b)); }
-
 /// The distance of c from the great circle of an arc, from differences, so that small distances keep their
 /// digits; for c closer than 90 degrees to `a`.
 double distance_to_circle(const Point& c, const Point& a, const Point& b) {
@@ -462,7 +462,7 @@ double distance_of_line(const MapCorner& a, const MapCorner& b) {
 class MapLines::Arc {
  public:
   /// `sides`: the arc in the faces on both sides, or in one of them.
-  Arc(const MapLines& all, const Side* sides, std::ptrdiff_t count) {
+  Arc(const MapLines& all, const FaceSide* sides, std::ptrdiff_t count) {
     ends_[0] = all.at(sides->low), ends_[1] = all.at(sides->high);
     ends_[1].turn = turn_after(ends_[0], ends_[1]);
     for (std::ptrdiff_t k = 0; k < count && k < 2; ++k) take_face(all, sides[k].face, sides[k].slot);
@@ -498,13 +498,13 @@ class MapLines::Arc {
   /// Notes what must stay on its side of this arc: the node of a face, and the rest of its border. Where the
   /// border has many corners, a diagonal stands for the arcs beyond it.
   void take_face(const MapLines& all, std::size_t face, std::size_t slot) {
-    if (!all.faces_.centres.empty()) nodes_[number_of_nodes_++] = all.faces_.centres[face];
+    if (!all.faces_.centres.empty()) nodes_.push_back(all.faces_.centres[face]);
     const auto point = [&](std::size_t k) { return all.point(all.corner_[k]); };
     const Point u = ends_[0].p, normal = cross(u, minus(ends_[1].p, u));
     const double scale = 1 / length(normal);
     const auto end_at = [&](const Point& p) { return p == ends_[0].p ? 0 : p == ends_[1].p ? 1 : -1; };
     const auto take = [&](const Point& from, const Point& to) {
-      others_[number_of_others_++] = {from, to, std::max(end_at(from), end_at(to))};
+      others_.push_back({from, to, std::max(end_at(from), end_at(to))});
       if (end_at(to) < 0) gap_ = std::min(gap_, std::fabs(dot(normal, minus(to, u))) * scale);
     };
     std::size_t first = all.after(face, slot), last = slot;
@@ -527,18 +527,15 @@ class MapLines::Arc {
     const double off = distance_of_line(a, b);
     if (off > kStraight) return false;
     if (off < kRounding) return true;
-    for (int k = 0; k < number_of_nodes_; ++k)
-      if (const Point& node = nodes_[k];
-          node != a.p && node != b.p && off > kOfDistance * distance_to_arc(node, a.p, b.p))
-        return false;
+    for (const Point& node : nodes_)
+      if (node != a.p && node != b.p && off > kOfDistance * distance_to_arc(node, a.p, b.p)) return false;
     const double ab = distance(a.p, b.p);
     const auto fits = [&](double deviation, double gap) {
       return deviation <= kOfGap * gap ||
              deviation <=
                  kOfGap * kLeastAngle * std::min(distance(b.p, ends_[0].p), distance(a.p, ends_[1].p));
     };
-    for (int k = 0; k < number_of_others_; ++k) {
-      const Other& other = others_[k];
+    for (const Other& other : others_) {
       if (other.end >= 0 && (other.end == 0 ? a : b).p == ends_[other.end].p) {
         // They meet in an angle: the line leaves its arc with a slope of 4 off / ab or less.
         const Point &tip = ends_[other.end].p, &far = (other.end == 0 ? b : a).p,
@@ -568,45 +565,31 @@ class MapLines::Arc {
   }
 
   MapCorner ends_[2];
-  int number_of_nodes_ = 0, number_of_others_ = 0;
-  Point nodes_[2];
-  Other others_[2 * (2 * kMostArcs + 1)];
+  boost::container::static_vector<Point, 2> nodes_;
+  boost::container::static_vector<Other, 2 * (2 * kMostArcs + 1)> others_;
   double gap_ = 1;  ///< smallest distance of the other arcs' corners from the great circle of this arc
 };
 
 MapLines::MapLines(const Faces& faces)
     : faces_(faces),
       angles_(angles_of(faces.points, faces.given_points, true)),
-      corner_(merged_corners(faces)),
-      is_bent_(faces.points.size()) {
+      corner_(merged_corners(faces)) {
   const auto side = [&](std::size_t f, std::size_t k) {
     const auto [low, high] = std::minmax(corner_[k], corner_[after(f, k)]);
-    return Side{low, high, f, k};
-  };
-  const auto for_each_side = [&](std::size_t first, std::size_t last, const auto& visit) {
-    for (std::size_t f = first; f < last; ++f)
-      for (std::size_t k = faces.begin[f]; k < faces.begin[f + 1]; ++k) visit(f, k);
+    return FaceSide{low, high, f, k};
   };
   std::vector<char> bends(corner_.size());
-  pstripack::parallel_pieces(faces.size(), pstripack::threads_for(10 * corner_.size()),
-                             [&](std::size_t first, std::size_t last, int) {
-                               for_each_side(first, last, [&](std::size_t f, std::size_t k) {
-                                 const Side s = side(f, k);
-                                 bends[k] = s.low != s.high && !leads_to_pole(point(s.low), point(s.high)) &&
-                                            !Arc(*this, &s, 1).is_line();
-                               });
-                             });
-  for_each_side(0, faces.size(), [&](std::size_t f, std::size_t k) {
-    if (!bends[k]) return;
-    bent_.push_back(side(f, k));
-    is_bent_[static_cast<std::size_t>(bent_.back().low) - 1] = true;
+  pstripack::parallel_for(faces.size(), 10 * corner_.size(), [&](std::size_t f) {
+    for (std::size_t k = faces.begin[f]; k < faces.begin[f + 1]; ++k) {
+      const FaceSide s = side(f, k);
+      bends[k] =
+          s.low != s.high && !leads_to_pole(point(s.low), point(s.high)) && !Arc(*this, &s, 1).is_line();
+    }
+  });
+  faces.for_each_corner([&](std::size_t f, std::size_t k) {
+    if (bends[k]) bent_.push_back(side(f, k));
   });
   std::sort(bent_.begin(), bent_.end());
-}
-
-MapCorner MapLines::at(std::int32_t corner) const {
-  const auto i = static_cast<std::size_t>(corner) - 1;
-  return {faces_.points[i], wrapped(angles_.lon[i]), angles_.lat[i]};
 }
 
 std::size_t MapLines::after(std::size_t face, std::size_t slot) const {
@@ -625,10 +608,9 @@ std::size_t MapLines::before(std::size_t face, std::size_t slot) const {
 
 MapRing MapLines::corners_between(std::int32_t from, std::int32_t to) const {
   const auto [low, high] = std::minmax(from, to);
-  if (!is_bent_[static_cast<std::size_t>(low) - 1]) return {};
   const auto [first, last] = std::equal_range(
-      bent_.begin(), bent_.end(), Side{low, high, 0, 0},
-      [](const Side& a, const Side& b) { return std::tie(a.low, a.high) < std::tie(b.low, b.high); });
+      bent_.begin(), bent_.end(), FaceSide{low, high, 0, 0},
+      [](const FaceSide& a, const FaceSide& b) { return std::tie(a.low, a.high) < std::tie(b.low, b.high); });
   if (first == last) return {};
   MapRing corners = Arc(*this, &*first, last - first).corners();
   if (from != low) std::reverse(corners.begin(), corners.end());
@@ -663,7 +645,7 @@ std::vector<MapRing> MapLines::lines(std::int32_t from, std::int32_t to) const {
   if (leads_through_pole(point(from), point(to))) {
     corners.push_back(pole(point(from).z + point(to).z));
   } else if (!leads_to_pole(point(from), point(to))) {
-    const Side side{from, to, 0, 0};
+    const FaceSide side{from, to, 0, 0};
     for (const MapCorner& corner : Arc(*this, &side, 0).corners()) corners.push_back(corner);
   }
   corners.push_back(at(to));

@@ -2,7 +2,6 @@
 // Polygons of the sphere on a map: longitude to the right, latitude upwards, in degrees.
 
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
 #include "files/mesh.h"
@@ -32,6 +31,8 @@ using MapRing = std::vector<MapCorner>;
 /// in all faces.
 std::vector<std::int32_t> merged_corners(const Faces& faces);
 
+/// A point of the faces, numbered from 1, with its longitude from -180 to 180.
+MapCorner corner_at(const Faces& faces, std::int32_t corner, const LonLat& angles);
 /// The corners of a face, with longitudes from -180 to 180. `corner`: faces.corner, or merged.
 MapRing ring_of(const Faces& faces, std::size_t face, const LonLat& angles,
                 const std::vector<std::int32_t>& corner);
@@ -78,19 +79,10 @@ class MapLines {
 
  private:
   class Arc;
-  /// The side of a face that begins at faces.corner[slot], between the corners `low` and `high`.
-  struct Side {
-    std::int32_t low, high;
-    std::size_t face, slot;
-    bool operator<(const Side& o) const {
-      return std::tie(low, high, slot) < std::tie(o.low, o.high, o.slot);
-    }
-  };
-
   const Point& point(std::int32_t corner) const {
     return faces_.points[static_cast<std::size_t>(corner) - 1];
   }
-  MapCorner at(std::int32_t corner) const;
+  MapCorner at(std::int32_t corner) const { return corner_at(faces_, corner, angles_); }
   /// The next and the previous slot of the face with another corner.
   std::size_t after(std::size_t face, std::size_t slot) const;
   std::size_t before(std::size_t face, std::size_t slot) const;
@@ -100,8 +92,7 @@ class MapLines {
   const Faces& faces_;
   LonLat angles_;
   std::vector<std::int32_t> corner_;
-  std::vector<Side> bent_;     ///< sides that are not close enough to one line for their face, sorted
-  std::vector<bool> is_bent_;  ///< of each point: it is `low` of such a side
+  std::vector<FaceSide> bent_;  ///< sides that are not close enough to one line for their face, sorted
 };
 
 /// Adds corners until arcs of great circles are within 0.0001 degrees of the straight lines and no side is

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "base/parallel_for.h"
@@ -14,7 +16,6 @@
 #include "geometry/measures.h"
 #include "lists/limits.h"
 #include "mesh/delaunay.h"
-#include "stripack/list_queries.h"
 #include "stripack/triangle_list.h"
 #include "stripack/voronoi.h"
 
@@ -28,14 +29,6 @@ Trmesh& the_trmesh() {
   static Trmesh trmesh = [](const pstripack::TrmeshCall& call) { return pstripack::trmesh(call); };
   return trmesh;
 }
-
-struct Components {
-  explicit Components(const std::vector<Point>& points) : x(points.size()), y(x.size()), z(x.size()) {
-    for (std::size_t i = 0; i < points.size(); ++i)
-      x[i] = points[i].x, y[i] = points[i].y, z[i] = points[i].z;
-  }
-  std::vector<double> x, y, z;
-};
 
 Mesh empty_mesh(std::vector<Point> points) {
   Mesh mesh;
@@ -66,39 +59,32 @@ auto off_one_great_circle(const Work& work) {
 
 /// The arc opposite a node in one of its triangles, from one neighbour to the next.
 struct Step {
-  std::int32_t from, to;
+  std::int32_t node, from, to;
+  bool operator<(const Step& other) const { return std::tie(node, from) < std::tie(other.node, other.from); }
 };
 
-/// Writes the neighbours of a node in the order of its list. `steps` must be sorted.
-void write_ring(std::size_t node, const Step* begin, const Step* end, std::vector<std::int32_t>& ring) {
-  const auto fail = [&](const char* what) { throw NoMesh(fmt::format("node {}: {}", node + 1, what)); };
+/// The neighbours of a node in the order of its list. [begin, end): its steps, sorted.
+std::vector<std::int32_t> ring_of(std::int32_t node, const Step* begin, const Step* end) {
+  const auto fail = [&](const char* what) { throw NoMesh(fmt::format("node {}: {}", node, what)); };
   if (begin == end) fail("is the corner of no triangle");
-  const auto step_from = [&](std::int32_t from) {
-    const Step* const step =
-        std::lower_bound(begin, end, from, [](const Step& s, std::int32_t f) { return s.from < f; });
-    return step != end && step->from == from ? step : nullptr;
-  };
-  for (const Step* s = begin; s + 1 < end; ++s)
-    if (s[0].from == s[1].from) fail("an arc has two triangles on one side");
-  std::vector<std::int32_t> reached;
-  for (const Step* s = begin; s != end; ++s) reached.push_back(s->to);
+  std::vector<std::int32_t> left, reached, first;
+  for (const Step* s = begin; s != end; ++s) left.push_back(s->from), reached.push_back(s->to);
+  if (std::adjacent_find(left.begin(), left.end()) != left.end())
+    fail("an arc has two triangles on one side");
   std::sort(reached.begin(), reached.end());
-  std::int32_t first = begin->from;
-  bool at_boundary = false;
-  for (const Step* s = begin; s != end; ++s) {
-    if (std::binary_search(reached.begin(), reached.end(), s->from)) continue;
-    if (at_boundary) fail("its triangles are not one fan");
-    first = s->from;
-    at_boundary = true;
+  std::set_difference(left.begin(), left.end(), reached.begin(), reached.end(), std::back_inserter(first));
+  if (first.size() > 1) fail("its triangles are not one fan");
+  const bool at_boundary = !first.empty();
+  std::vector<std::int32_t> ring{at_boundary ? first[0] : left[0]};
+  const std::size_t length = left.size() + first.size();
+  while (ring.size() <= length) {
+    const Step* const step = std::lower_bound(begin, end, Step{node, ring.back(), 0});
+    if (step == end || step->from != ring.back() || step->to == ring[0]) break;
+    ring.push_back(step->to);
   }
-  ring.assign(1, first);
-  const auto count = static_cast<std::size_t>(end - begin);
-  for (const Step* s = step_from(first); s != nullptr && ring.size() <= count; s = step_from(s->to)) {
-    if (!at_boundary && s->to == first) break;
-    ring.push_back(s->to);
-  }
-  if (ring.size() != count + (at_boundary ? 1 : 0)) fail("its triangles are not one cycle");
+  if (ring.size() != length) fail("its triangles are not one cycle");
   if (at_boundary) ring.back() = -ring.back();
+  return ring;
 }
 
 }  // namespace
@@ -110,10 +96,11 @@ Mesh triangulate(std::vector<Point> points) {
   check_count(n);
   // Ranks, unlike this process, need the first three nodes off one great circle.
   const bool starts_anywhere = pstripack::left(points[0], points[1], points[2]) == 0;
-  const Components c(points);
+  std::vector<double> x, y, z;
+  for (const Point& p : points) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
   Mesh mesh = empty_mesh(std::move(points));
   const pstripack::TrmeshCall call{static_cast<std::int32_t>(n),
-                                   {c.x.data(), c.y.data(), c.z.data()},
+                                   {x.data(), y.data(), z.data()},
                                    {mesh.list.data(), mesh.lptr.data(), mesh.lend.data(), &mesh.lnew},
                                    true,
                                    starts_anywhere};
@@ -131,18 +118,15 @@ std::vector<Duplicate> duplicates(const std::vector<Point>& points) {
   pstripack::Workspace workspace(pstripack::workspace_bytes(points.size()));
   const pstripack::Hull hull =
       off_one_great_circle([&] { return pstripack::delaunay(points.data(), points.size(), workspace); });
-  std::map<std::size_t, std::vector<std::size_t>> groups;  // key: the node that the kernel inserted
-  for (const auto& [in, out] : hull.coincident) {
-    std::vector<std::size_t>& group = groups[static_cast<std::size_t>(in)];
-    if (group.empty()) group.push_back(static_cast<std::size_t>(in));
-    group.push_back(static_cast<std::size_t>(out));
-  }
+  std::map<pstripack::index_t, pstripack::index_t> first;  // key: the node that the kernel inserted
+  for (const auto& [in, out] : hull.coincident)
+    first[in] = std::min({first.try_emplace(in, in).first->second, in, out});
   std::vector<Duplicate> later;
-  for (const auto& [inserted, group] : groups) {
-    const std::size_t first = *std::min_element(group.begin(), group.end());
-    for (const std::size_t node : group)
-      if (node != first) later.push_back({node, first});
-  }
+  const auto add = [&](pstripack::index_t node, pstripack::index_t least) {
+    if (node != least) later.push_back({static_cast<std::size_t>(node), static_cast<std::size_t>(least)});
+  };
+  for (const auto& [in, out] : hull.coincident) add(out, first[in]);
+  for (const auto& [in, least] : first) add(in, least);
   std::sort(later.begin(), later.end(),
             [](const Duplicate& a, const Duplicate& b) { return a.node < b.node; });
   return later;
@@ -151,23 +135,18 @@ std::vector<Duplicate> duplicates(const std::vector<Point>& points) {
 Mesh mesh_of(std::vector<Point> points, const Triangles& triangles) {
   const std::size_t n = points.size();
   check_count(n);
-  std::vector<std::size_t> begin(n + 1);
+  std::vector<Step> steps;
   for (const Triangle& t : triangles)
-    for (const pstripack::index_t node : t) ++begin[static_cast<std::size_t>(node) + 1];
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<Step> steps(begin[n]);
-  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-  for (const Triangle& t : triangles)
-    for (std::size_t k = 0; k < 3; ++k)
-      steps[next[static_cast<std::size_t>(t[k])]++] = {t[(k + 1) % 3] + 1, t[(k + 2) % 3] + 1};
+    for (std::size_t k = 0; k < 3; ++k) steps.push_back({t[k] + 1, t[(k + 1) % 3] + 1, t[(k + 2) % 3] + 1});
+  std::sort(steps.begin(), steps.end());
 
   Mesh mesh = empty_mesh(std::move(points));
-  std::vector<std::int32_t> ring;
   std::size_t slot = 0;
-  for (std::size_t node = 0; node < n; ++node) {
-    Step *const first = steps.data() + begin[node], *const last = steps.data() + begin[node + 1];
-    std::sort(first, last, [](const Step& a, const Step& b) { return a.from < b.from; });
-    write_ring(node, first, last, ring);
+  const Step *begin = steps.data(), *const last = begin + steps.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto node = static_cast<std::int32_t>(i + 1);
+    const Step* const end = std::find_if(begin, last, [&](const Step& step) { return step.node != node; });
+    const std::vector<std::int32_t> ring = ring_of(node, begin, end);
     if (slot + ring.size() > mesh.list.size()) throw NoMesh("more arcs than a triangulation can have");
     const std::size_t first_slot = slot;
     for (const std::int32_t neighbour : ring) {
@@ -176,7 +155,8 @@ Mesh mesh_of(std::vector<Point> points, const Triangles& triangles) {
       ++slot;
     }
     mesh.lptr[slot - 1] = static_cast<std::int32_t>(first_slot + 1);
-    mesh.lend[node] = static_cast<std::int32_t>(slot);
+    mesh.lend[i] = static_cast<std::int32_t>(slot);
+    begin = end;
   }
   mesh.lnew = static_cast<std::int32_t>(slot + 1);
   return mesh;
@@ -201,29 +181,25 @@ std::vector<std::int32_t> triangles_of(const Mesh& mesh) {
 }
 
 std::vector<std::int32_t> triangles_to_write(const Mesh& mesh) {
-  std::vector<std::int32_t> all = triangles_of(mesh);
+  const std::vector<std::int32_t> all = triangles_of(mesh);
   if (mesh.longest == 0) return all;
   const auto is_short = [&](std::int32_t a, std::int32_t b) {
     return is_near(mesh.points[static_cast<std::size_t>(a) - 1], mesh.points[static_cast<std::size_t>(b) - 1],
                    mesh.longest);
   };
-  std::size_t kept = 0;
+  std::vector<std::int32_t> kept;
   for (std::size_t t = 0; t < all.size(); t += 3) {
     const std::int32_t a = all[t], b = all[t + 1], c = all[t + 2];
-    if (!is_short(a, b) || !is_short(b, c) || !is_short(c, a)) continue;
-    for (const std::int32_t corner : {a, b, c}) all[kept++] = corner;
+    if (is_short(a, b) && is_short(b, c) && is_short(c, a)) kept.insert(kept.end(), {a, b, c});
   }
-  all.resize(kept);
-  return all;
+  return kept;
 }
 
 std::vector<Point> unit(const std::vector<Point>& points) {
   std::vector<Point> result(points.size());
-  pstripack::parallel_pieces(
-      points.size(), pstripack::threads_for(points.size()), [&](std::size_t first, std::size_t last, int) {
-        for (std::size_t i = first; i < last; ++i)
-          result[i] = pstripack::length_is_one(points[i]) ? points[i] : unit(points[i]);
-      });
+  pstripack::parallel_for(points.size(), points.size(), [&](std::size_t i) {
+    result[i] = pstripack::length_is_one(points[i]) ? points[i] : unit(points[i]);
+  });
   return result;
 }
 
@@ -235,22 +211,21 @@ auto measures_of(const std::vector<Point>& points, const std::vector<std::int32_
                  const Measure& measure) {
   const pstripack::Directions nodes(points.data(), points.size());
   std::vector<decltype(measure(nodes, 0, 0, 0))> all(triangles.size() / 3);
-  pstripack::parallel_pieces(
-      all.size(), pstripack::threads_for(4 * all.size()), [&](std::size_t first, std::size_t last, int) {
-        for (std::size_t t = first; t < last; ++t)
-          all[t] = measure(nodes, triangles[3 * t] - 1, triangles[3 * t + 1] - 1, triangles[3 * t + 2] - 1);
-      });
+  pstripack::parallel_for(all.size(), 4 * all.size(), [&](std::size_t t) {
+    all[t] = measure(nodes, triangles[3 * t] - 1, triangles[3 * t + 1] - 1, triangles[3 * t + 2] - 1);
+  });
   return all;
 }
 
-/// The faces are these triangles.
+/// The faces are these triangles. Without points they have no areas.
 Faces faces_of(const std::vector<Point>& points, const std::vector<std::int32_t>& triangles) {
   Faces faces;
   faces.points = unit(points);
   faces.corner = triangles;
   faces.begin.resize(triangles.size() / 3 + 1);
   for (std::size_t f = 0; f < faces.begin.size(); ++f) faces.begin[f] = 3 * f;
-  faces.area = measures_of(points, triangles, [](const auto&... nodes) { return triangle_area(nodes...); });
+  if (!points.empty())
+    faces.area = measures_of(points, triangles, [](const auto&... nodes) { return triangle_area(nodes...); });
   return faces;
 }
 
@@ -283,21 +258,13 @@ std::vector<std::int32_t> hull_of(const Mesh& mesh) {
 
 Links links_of(const Mesh& mesh) {
   const pstripack::Directions nodes(mesh.points.data(), mesh.points.size());
-  const pstripack::ListReader<std::int32_t> reader(mesh.lists());
   Links links;
-  std::vector<std::int32_t> larger;
-  for (std::int32_t node = 1; node <= reader.size(); ++node) {
-    larger.clear();
-    reader.for_each_neighbour(node, [&](std::int32_t neighbour) {
-      if (neighbour > node) larger.push_back(neighbour);
-    });
-    std::sort(larger.begin(), larger.end());
-    for (const std::int32_t neighbour : larger) {
-      const double length = arc_length(direction_of(nodes, node - 1), direction_of(nodes, neighbour - 1));
-      if (mesh.longest > 0 && length > mesh.longest) continue;
-      links.nodes.insert(links.nodes.end(), {node, neighbour});
-      links.length.push_back(length);
-    }
+  const std::vector<std::int32_t> ends = edges_of(faces_of({}, triangles_of(mesh))).nodes;
+  for (std::size_t k = 0; k < ends.size(); k += 2) {
+    const double length = arc_length(direction_of(nodes, ends[k] - 1), direction_of(nodes, ends[k + 1] - 1));
+    if (mesh.longest > 0 && length > mesh.longest) continue;
+    links.nodes.insert(links.nodes.end(), {ends[k], ends[k + 1]});
+    links.length.push_back(length);
   }
   return links;
 }
@@ -329,18 +296,10 @@ void add_corners(Faces& cells, const Mesh& mesh, const pstripack::Directions& di
   const std::size_t ncol = mesh.has_boundary() ? hull_of(mesh).size() - 2 : 1;
   std::vector<std::int32_t> ltri(6 * ncol);
   std::vector<double> x(2 * n - 4), y(x.size()), z(x.size());
-  const pstripack::VoronoiArrays<double, std::int32_t> out{static_cast<std::int32_t>(ncol),
-                                                           lptr.data(),
-                                                           &lnew,
-                                                           ltri.data(),
-                                                           listc.data(),
-                                                           &nb,
-                                                           x.data(),
-                                                           y.data(),
-                                                           z.data(),
-                                                           nullptr};
-  const pstripack::ListsView<std::int32_t> lists{n, mesh.list.data(), lptr.data(), mesh.lend.data(), lnew};
-  const pstripack::VoronoiStatus status = pstripack::voronoi_of_directions(lists, directions, out);
+  const pstripack::VoronoiStatus status =
+      pstripack::voronoi_of_directions({n, mesh.list.data(), lptr.data(), mesh.lend.data(), lnew}, directions,
+                                       {static_cast<std::int32_t>(ncol), lptr.data(), &lnew, ltri.data(),
+                                        listc.data(), &nb, x.data(), y.data(), z.data(), nullptr});
   if (status != pstripack::VoronoiStatus::done)
     throw NoMesh(fmt::format("the Voronoi diagram failed with code {}", static_cast<int>(status)));
 
@@ -387,42 +346,35 @@ Faces voronoi_faces(const Mesh& mesh, bool with_corners) {
 
 std::vector<double> areas(const Faces& faces) {
   std::vector<double> all(faces.size());
-  const auto point = [&](std::size_t k) {
-    return faces.points[static_cast<std::size_t>(faces.corner[k]) - 1];
-  };
-  pstripack::parallel_pieces(
-      all.size(), pstripack::threads_for(8 * all.size()), [&](std::size_t first, std::size_t last, int) {
-        for (std::size_t f = first; f < last; ++f) {
-          if (!faces.area.empty() && !std::isnan(faces.area[f])) {
-            all[f] = faces.area[f];
-            continue;
-          }
-          const std::size_t begin = faces.begin[f], end = faces.begin[f + 1];
-          // Parts of a cell may be far from its node, and small.
-          const auto is_small = [&] {
-            for (std::size_t k = begin; k < end; ++k)
-              if (dot(point(begin), point(k)) < 0.5) return false;
-            return true;
-          };
-          if (faces.centres.empty() || (!faces.nodes.empty() && is_small())) {
-            for (std::size_t k = begin + 1; k + 1 < end; ++k)
-              all[f] += triangle_area(point(begin), point(k), point(k + 1));
-          } else {
-            for (std::size_t k = begin; k < end; ++k)
-              all[f] += triangle_area(faces.centres[f], point(k), point(k + 1 < end ? k + 1 : begin));
-          }
-        }
-      });
+  const auto point = [&](std::size_t k) { return faces.point(k); };
+  pstripack::parallel_for(all.size(), 8 * all.size(), [&](std::size_t f) {
+    if (!faces.area.empty() && !std::isnan(faces.area[f])) {
+      all[f] = faces.area[f];
+      return;
+    }
+    const std::size_t begin = faces.begin[f], end = faces.begin[f + 1];
+    // Parts of a cell may be far from its node, and small.
+    const auto is_small = [&] {
+      for (std::size_t k = begin; k < end; ++k)
+        if (dot(point(begin), point(k)) < 0.5) return false;
+      return true;
+    };
+    if (faces.centres.empty() || (!faces.nodes.empty() && is_small())) {
+      for (std::size_t k = begin + 1; k + 1 < end; ++k)
+        all[f] += triangle_area(point(begin), point(k), point(k + 1));
+    } else {
+      for (std::size_t k = begin; k < end; ++k)
+        all[f] += triangle_area(faces.centres[f], point(k), point(faces.after(f, k)));
+    }
+  });
   return all;
 }
 
 namespace {
 
 Columns area_columns(const Faces& faces) {
-  Column area{"area", "area of the face on the unit sphere", "sr"};
-  area.numbers = areas(faces);
+  Column area{"area", "area of the face on the unit sphere", "sr", areas(faces)};
   Column area_km2{"area_km2", "area of the face on a sphere of radius 6371 km", "km2"};
-  area_km2.numbers.reserve(area.numbers.size());
   for (const double a : area.numbers) area_km2.numbers.push_back(a * kEarthRadius * kEarthRadius);
   return {area, area_km2};
 }
@@ -431,22 +383,19 @@ Columns area_columns(const Faces& faces) {
 Columns measures_of(const Faces& faces, const std::vector<Point>& nodes) {
   Columns columns = area_columns(faces);
   if (faces.centres.empty()) {
-    Column radius{"circumradius_km", "circumradius of the triangle on a sphere of radius 6371 km", "km"};
-    radius.numbers =
-        measures_of(nodes, faces.corner, [](const pstripack::Directions& at, auto a, auto b, auto c) {
-          return kEarthRadius *
-                 circumcircle(direction_of(at, a), direction_of(at, b), direction_of(at, c)).radius;
-        });
-    columns.push_back(std::move(radius));
+    const auto radius = [](const pstripack::Directions& at, auto a, auto b, auto c) {
+      return kEarthRadius *
+             circumcircle(direction_of(at, a), direction_of(at, b), direction_of(at, c)).radius;
+    };
+    columns.push_back({"circumradius_km", "circumradius of the triangle on a sphere of radius 6371 km", "km",
+                       measures_of(nodes, faces.corner, radius)});
     return columns;
   }
   LonLat angles(centroids(faces), true);
-  Column lon{"centroid_lon", "longitude of the centroid of the face", "degrees"},
-      lat{"centroid_lat", "latitude of the centroid of the face", "degrees"};
-  lon.numbers = std::move(angles.lon);
-  lat.numbers = std::move(angles.lat);
-  columns.push_back(std::move(lon));
-  columns.push_back(std::move(lat));
+  columns.push_back(
+      {"centroid_lon", "longitude of the centroid of the face", "degrees", std::move(angles.lon)});
+  columns.push_back(
+      {"centroid_lat", "latitude of the centroid of the face", "degrees", std::move(angles.lat)});
   return columns;
 }
 
@@ -497,13 +446,8 @@ Faces hull_face(const Mesh& mesh) {
 void add_columns(Faces& faces, const Mesh& mesh) {
   (faces.centres.empty() ? faces.given_points : faces.given_centres) = mesh.given;
   std::vector<double> degrees(mesh.points.size());
-  const pstripack::ListReader<std::int32_t> reader(mesh.lists());
-  pstripack::parallel_pieces(
-      degrees.size(), pstripack::threads_for(degrees.size()), [&](std::size_t first, std::size_t last, int) {
-        for (std::size_t i = first; i < last; ++i) {
-          reader.for_each_neighbour(static_cast<std::int32_t>(i + 1), [&](std::int32_t) { ++degrees[i]; });
-        }
-      });
+  for (std::size_t i = 0; i < degrees.size(); ++i)
+    degrees[i] = pstripack::nbcnt(mesh.lend[i], mesh.lptr.data());
   add_columns(faces, mesh.points, mesh.columns, std::move(degrees));
 }
 

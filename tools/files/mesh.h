@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <functional>
 #include <stdexcept>
+#include <tuple>
 #include <vector>
 
 #include "files/measures.h"
 #include "files/nodes.h"
 #include "geometry/predicates.h"
 #include "lists/adjacency_lists.h"
+#include "stripack/list_queries.h"
 #include "trmesh/trmesh.h"
 
 namespace files {
@@ -64,6 +66,14 @@ struct CoincidentNodes : NoMesh {
 /// ranks.
 using Trmesh = std::function<pstripack::TrmeshResult(const pstripack::TrmeshCall&)>;
 void set_trmesh(Trmesh trmesh);
+
+/// Calls visit(neighbour) for the neighbours of a node; indices from 0.
+template <class Visit>
+void for_each_neighbour(const pstripack::ListReader<std::int32_t>& reader, std::size_t node,
+                        const Visit& visit) {
+  reader.for_each_neighbour(static_cast<std::int32_t>(node) + 1,
+                            [&](std::int32_t neighbour) { visit(static_cast<std::size_t>(neighbour) - 1); });
+}
 
 /// The Delaunay triangulation of at least three nodes, none of them a zero vector. Throws NoMesh if they lie
 /// on one great circle, if two coincide, or if there are too many.
@@ -121,6 +131,25 @@ struct Faces {
   std::size_t node_of(std::size_t f) const { return nodes.empty() ? f : nodes[f]; }
   std::size_t corners(std::size_t f) const { return begin[f + 1] - begin[f]; }
   std::size_t most_corners() const;
+  /// The point of corner[k].
+  const Point& point(std::size_t k) const { return points[static_cast<std::size_t>(corner[k]) - 1]; }
+  /// The place in `corner`, behind k, of the next corner of face f.
+  std::size_t after(std::size_t f, std::size_t k) const { return k + 1 < begin[f + 1] ? k + 1 : begin[f]; }
+  /// Calls visit(f, k) for all faces f and their places k in `corner`.
+  template <class Visit>
+  void for_each_corner(const Visit& visit) const {
+    for (std::size_t f = 0; f < size(); ++f)
+      for (std::size_t k = begin[f]; k < begin[f + 1]; ++k) visit(f, k);
+  }
+};
+
+/// The side of a face that begins at its corner[slot], between the corners `low` and `high`.
+struct FaceSide {
+  std::int32_t low, high;
+  std::size_t face, slot;
+  bool operator<(const FaceSide& o) const {
+    return std::tie(low, high, slot) < std::tie(o.low, o.high, o.slot);
+  }
 };
 
 /// The edges of faces, in increasing order of their nodes. All numbers begin with 1.

@@ -14,8 +14,6 @@
 namespace files {
 namespace {
 
-using pstripack::parallel_pieces;
-using pstripack::threads_for;
 using Index = std::int32_t;
 using Two = MpasMesh::Two;
 using Three = MpasMesh::Three;
@@ -23,12 +21,9 @@ constexpr Index kNone = MpasMesh::kNone;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Calls body(i) for 0, ..., n-1, on threads. body must not throw.
 template <class Body>
 void for_each(std::size_t n, const Body& body) {
-  parallel_pieces(n, threads_for(10 * n), [&](std::size_t first, std::size_t last, int) {
-    for (std::size_t i = first; i < last; ++i) body(i);
-  });
+  pstripack::parallel_for(n, 10 * n, body);
 }
 
 /// The place of the cell among those of the vertex.
@@ -104,25 +99,18 @@ void find_cells(MpasMesh& mesh) {
       for (const Index cell : mesh.cells_on_vertex[v])
         if (cell != kNone) mesh.vertices_on_cell[at(next[at(cell)]++)] = static_cast<Index>(v);
   }
-  const int threads = threads_for(10 * n);
-  pstripack::ErrorsOfThreads errors(at(threads));
-  parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int piece) {
-    errors.keep(at(piece), [&] {
-      std::vector<Corner> corners;
-      for (std::size_t c = first; c < last; ++c) {
-        Index* const ring = mesh.vertices_on_cell.data() + mesh.begin[c];
-        if (mesh.sides(c) == 0) throw NoMesh(fmt::format("cell {}: has no vertex", c + 1));
-        corners.clear();
-        for (std::size_t k = 0; k < mesh.sides(c); ++k) {
-          const Three& around = mesh.cells_on_vertex[at(ring[k])];
-          const std::size_t place = place_of(static_cast<Index>(c), around);
-          corners.push_back({around[(place + 1) % 3], around[(place + 2) % 3], ring[k]});
-        }
-        order_ring(mesh, static_cast<Index>(c), corners, ring);
-      }
-    });
-  });
-  errors.rethrow();
+  std::vector<Corner> corners;
+  for (std::size_t c = 0; c < n; ++c) {
+    Index* const ring = mesh.vertices_on_cell.data() + mesh.begin[c];
+    if (mesh.sides(c) == 0) throw NoMesh(fmt::format("cell {}: has no vertex", c + 1));
+    corners.clear();
+    for (std::size_t k = 0; k < mesh.sides(c); ++k) {
+      const Three& around = mesh.cells_on_vertex[at(ring[k])];
+      const std::size_t place = place_of(static_cast<Index>(c), around);
+      corners.push_back({around[(place + 1) % 3], around[(place + 2) % 3], ring[k]});
+    }
+    order_ring(mesh, static_cast<Index>(c), corners, ring);
+  }
 }
 
 // ---- edges ------------------------------------------------------------------------------------------------

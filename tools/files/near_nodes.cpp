@@ -2,22 +2,9 @@
 
 #include <algorithm>
 
-#include "base/parallel_for.h"
 #include "geometry/measures.h"
-#include "stripack/list_queries.h"
 
 namespace files {
-namespace {
-
-/// Calls visit(neighbour) for the neighbours of a node; indices from 0.
-template <class Visit>
-void for_each_neighbour(const pstripack::ListReader<std::int32_t>& reader, std::size_t node,
-                        const Visit& visit) {
-  reader.for_each_neighbour(static_cast<std::int32_t>(node) + 1,
-                            [&](std::int32_t neighbour) { visit(static_cast<std::size_t>(neighbour) - 1); });
-}
-
-}  // namespace
 
 bool is_near(const Point& a, const Point& b, double within) {
   // Most pairs are far apart: |a x b| = |a| |b| sin(angle), rounded by less than 1e-15 |a| |b|. The factor 2
@@ -31,21 +18,12 @@ bool is_near(const Point& a, const Point& b, double within) {
 NearNeighbours near_neighbours(const pstripack::ListsView<std::int32_t>& lists,
                                const std::vector<Point>& points, double within) {
   const pstripack::ListReader<std::int32_t> reader(lists);
-  const int threads = pstripack::threads_for(points.size());
-  std::vector<NearNeighbours> found(static_cast<std::size_t>(threads));
-  pstripack::parallel_pieces(points.size(), threads, [&](std::size_t begin, std::size_t end, int piece) {
-    NearNeighbours& here = found[static_cast<std::size_t>(piece)];
-    for (std::size_t i = begin; i < end; ++i)
-      for_each_neighbour(reader, i, [&](std::size_t j) {
-        if (j < i || !is_near(points[i], points[j], within)) return;
-        if (here.pairs++ == 0 || (here.first == i && j < here.second)) here.first = i, here.second = j;
-      });
-  });
   NearNeighbours all;
-  for (const NearNeighbours& part : found) {  // in the order of the nodes
-    if (all.pairs == 0) all.first = part.first, all.second = part.second;
-    all.pairs += part.pairs;
-  }
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for_each_neighbour(reader, i, [&](std::size_t j) {
+      if (j < i || !is_near(points[i], points[j], within)) return;
+      if (all.pairs++ == 0 || (all.first == i && j < all.second)) all.first = i, all.second = j;
+    });
   return all;
 }
 

@@ -20,133 +20,100 @@ namespace {
 
 using point_sets::excerpt;
 
-/// The header of a file in a classic format: CDF-1, CDF-2 or CDF-5.
-class ClassicHeader {
- public:
-  /// Throws if the file ends before its last value: libnetcdf takes what is missing as zeros.
-  static void expect_whole(std::istream&& file, const std::string& name) {
-    if (!ClassicHeader(file).is_whole())
-      throw std::runtime_error(name + ": incomplete NetCDF file: it ends before its last value");
-  }
-
- private:
-  explicit ClassicHeader(std::istream& file) : file_(file) {}
-
-  bool is_whole() {
-    struct Extent {
-      std::uint64_t begin, bytes;
-      bool has_records;
-    };
-    std::vector<Extent> variables;
-    const std::uint64_t version = number(4) - 0x43444600;  // "CDF" and the version
-    if (version != 1 && version != 2 && version != 5) return true;
-    count_size_ = version == 5 ? 8 : 4;
-    const std::uint64_t records = number(count_size_);
-    std::vector<std::uint64_t> lengths;
-    for_each_item([&] { lengths.push_back(number(count_size_)); });
-    skip_attributes();
-    for_each_item([&] {
-      Extent& v = variables.emplace_back(Extent{0, 1, false});
-      const std::uint64_t rank = number(count_size_);
-      for (std::uint64_t d = 0; d < rank && file_; ++d) {
-        const std::uint64_t dimension = number(count_size_),
-                            length = dimension < lengths.size() ? lengths[dimension] : 1;
-        if (length == 0)
-          v.has_records = true;
-        else
-          v.bytes *= length;
-      }
-      skip_attributes();
-      v.bytes *= size_of_type();
-      number(count_size_);  // the size once more
-      v.begin = number(version == 1 ? 4 : 8);
-    });
-    std::uint64_t record = 0, end = 0;
-    const auto with_records =
-        std::count_if(variables.begin(), variables.end(), [](const Extent& v) { return v.has_records; });
-    for (const Extent& v : variables)
-      if (v.has_records) record += with_records == 1 ? v.bytes : padded(v.bytes);
-    for (const Extent& v : variables)
-      if (!v.has_records || records > 0)
-        end = std::max(end, v.begin + v.bytes + (v.has_records ? (records - 1) * record : 0));
-    return file_ && file_.seekg(0, std::ios::end).tellg() >= static_cast<std::streamoff>(end);
-  }
-
-  static std::uint64_t padded(std::uint64_t bytes) { return (bytes + 3) / 4 * 4; }
-  std::uint64_t number(int bytes) {
-    std::uint64_t value = 0;
-    for (; bytes > 0; --bytes) value = value << 8 | static_cast<std::uint64_t>(file_.get() & 0xff);
+/// Throws if a file in a classic format, CDF-1, CDF-2 or CDF-5, ends before its last value: libnetcdf takes
+/// what is missing as zeros.
+void expect_whole(std::istream&& file, const std::string& name) {
+  using Number = std::uint64_t;
+  const auto number = [&](int bytes) {
+    Number value = 0;
+    for (; bytes > 0; --bytes) value = value << 8 | static_cast<Number>(file.get() & 0xff);
     return value;
-  }
-  void skip(std::uint64_t bytes) { file_.ignore(static_cast<std::streamsize>(padded(bytes))); }
-  /// For dimensions, attributes and variables: reads their names, and calls read() for the rest of each.
-  template <class Read>
-  void for_each_item(const Read& read) {
+  };
+  const Number version = number(4) - 0x43444600;  // "CDF" and the version
+  if (version != 1 && version != 2 && version != 5) return;
+  const auto count = [&] { return number(version == 5 ? 8 : 4); };
+  const auto padded = [](Number bytes) { return (bytes + 3) / 4 * 4; };
+  const auto skip = [&](Number bytes) { file.ignore(static_cast<std::streamsize>(padded(bytes))); };
+  const auto size_of_type = [&]() -> Number {
+    constexpr Number kSizes[] = {0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
+    return kSizes[std::min<Number>(number(4), 11)];
+  };
+  // Reads the names of dimensions, attributes or variables, and calls read() for the rest of each.
+  const auto for_each_item = [&](const auto& read) {
     number(4);
-    for (std::uint64_t left = number(count_size_); left > 0 && file_; --left) {
-      skip(number(count_size_));
+    for (Number left = count(); left > 0 && file; --left) {
+      skip(count());
       read();
     }
-  }
-  std::uint64_t size_of_type() {
-    constexpr int kSizes[] = {0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
-    return static_cast<std::uint64_t>(kSizes[std::min<std::uint64_t>(number(4), 11)]);
-  }
-  void skip_attributes() {
+  };
+  const auto skip_attributes = [&] {
     for_each_item([&] {
-      const std::uint64_t size = size_of_type();
-      skip(size * number(count_size_));
+      const Number size = size_of_type();
+      skip(size * count());
     });
-  }
+  };
+  const Number records = count();
+  std::vector<Number> lengths, bytes_of_record;
+  for_each_item([&] { lengths.push_back(count()); });
+  skip_attributes();
+  Number end = 0, end_in_record = 0;
+  for_each_item([&] {
+    bool has_records = false;
+    Number bytes = 1;
+    for (Number rank = count(); rank > 0 && file; --rank) {
+      const Number dimension = count(), length = dimension < lengths.size() ? lengths[dimension] : 1;
+      has_records = has_records || length == 0;
+      if (length > 0) bytes *= length;
+    }
+    skip_attributes();
+    bytes *= size_of_type();
+    count();  // the size once more
+    Number& last = has_records ? end_in_record : end;
+    last = std::max(last, number(version == 1 ? 4 : 8) + bytes);
+    if (has_records) bytes_of_record.push_back(bytes);
+  });
+  Number record = 0;
+  for (const Number bytes : bytes_of_record) record += bytes_of_record.size() == 1 ? bytes : padded(bytes);
+  if (records > 0) end = std::max(end, end_in_record + (records - 1) * record);
+  if (!file || file.seekg(0, std::ios::end).tellg() < static_cast<std::streamoff>(end))
+    throw std::runtime_error(name + ": incomplete NetCDF file: it ends before its last value");
+}
 
-  std::istream& file_;
-  int count_size_ = 4;
+/// What NetCDF's types of numbers hold, by nc_type.
+struct TypeOfNumbers {
+  int bits;  ///< of integers; 0: floating point
+  bool is_signed;
+  double fill;  ///< the library's
 };
+constexpr TypeOfNumbers kTypes[] = {{},
+                                    {8, true, NC_FILL_BYTE},
+                                    {},
+                                    {16, true, NC_FILL_SHORT},
+                                    {32, true, NC_FILL_INT},
+                                    {0, true, NC_FILL_FLOAT},
+                                    {0, true, NC_FILL_DOUBLE},
+                                    {8, false, NC_FILL_UBYTE},
+                                    {16, false, NC_FILL_USHORT},
+                                    {32, false, NC_FILL_UINT},
+                                    {64, true, static_cast<double>(NC_FILL_INT64)},
+                                    {64, false, static_cast<double>(NC_FILL_UINT64)}};
 
 /// The stored numbers of a variable as its type and `_Unsigned` mean them.
 struct Stored {
-  nc_type type;
-  bool is_unsigned, is_reinterpreted;
+  const TypeOfNumbers& type;
+  bool is_float, is_unsigned;
 
-  Stored(nc_type of, const std::string& attribute) : type(of) {
-    const bool is_signed_type = of == NC_BYTE || of == NC_SHORT || of == NC_INT || of == NC_INT64;
-    is_unsigned = is_signed_type ? attribute == "true" || attribute == "True"
-                                 : !(attribute == "false" || attribute == "False");
-    is_reinterpreted = is_unsigned == is_signed_type;
-  }
-  bool is_integer() const { return type != NC_FLOAT && type != NC_DOUBLE; }
-  bool is_byte() const { return type == NC_BYTE || type == NC_UBYTE; }
-  int bits() const {
-    if (is_byte()) return 8;
-    return type == NC_SHORT || type == NC_USHORT ? 16 : type == NC_INT || type == NC_UINT ? 32 : 64;
-  }
+  Stored(nc_type of, const std::string& attribute)
+      : type(kTypes[of]),
+        is_float(of == NC_FLOAT),
+        is_unsigned(type.is_signed ? attribute == "true" || attribute == "True"
+                                   : attribute != "false" && attribute != "False") {}
   double number(double value) const {
-    if (type == NC_FLOAT) return static_cast<double>(static_cast<float>(value));
-    if (!is_integer() || !is_reinterpreted) return value;
-    const double count = std::ldexp(1, bits());
+    if (is_float) return static_cast<double>(static_cast<float>(value));
+    if (type.bits == 0 || is_unsigned != type.is_signed) return value;
+    const double count = std::ldexp(1, type.bits);
     if (is_unsigned) return value < 0 ? value + count : value;
     return value >= count / 2 ? value - count : value;
-  }
-  /// The library's.
-  double fill() const {
-    switch (type) {
-      case NC_SHORT:
-        return NC_FILL_SHORT;
-      case NC_USHORT:
-        return NC_FILL_USHORT;
-      case NC_INT:
-        return NC_FILL_INT;
-      case NC_UINT:
-        return NC_FILL_UINT;
-      case NC_INT64:
-        return static_cast<double>(NC_FILL_INT64);
-      case NC_UINT64:
-        return static_cast<double>(NC_FILL_UINT64);
-      case NC_FLOAT:
-        return static_cast<double>(NC_FILL_FLOAT);
-      default:
-        return NC_FILL_DOUBLE;
-    }
   }
 };
 
@@ -173,10 +140,10 @@ bool NetcdfVariable::is_of(const std::vector<int>& nodes) const {
 NetcdfFile::NetcdfFile(const std::string& name, const std::string& contents, const ReadOptions& options)
     : name_(name), options_(options) {
   if (contents.empty()) {
-    ClassicHeader::expect_whole(std::ifstream(name, std::ios::binary), name);
+    expect_whole(std::ifstream(name, std::ios::binary), name);
     check("", nc_open(name.c_str(), NC_NOWRITE, &id_));
   } else {  // NetCDF takes bytes to read as void*, and does not change them without NC_WRITE
-    ClassicHeader::expect_whole(std::istringstream(contents), name);
+    expect_whole(std::istringstream(contents), name);
     check("",
           nc_open_mem(name.c_str(), NC_NOWRITE, contents.size(), const_cast<char*>(contents.data()), &id_));
   }
@@ -252,17 +219,17 @@ const NetcdfVariable& NetcdfFile::variable(const std::string& name, const Netcdf
   return *found;
 }
 
-std::string NetcdfFile::text(int group, int variable, const char* attribute) const {
+std::string NetcdfFile::text(const NetcdfVariable& v, const char* attribute) const {
   std::string text;
   nc_type type = NC_CHAR;
   std::size_t length = 0;
-  if (nc_inq_att(group, variable, attribute, &type, &length) != NC_NOERR) return text;
+  if (nc_inq_att(v.group, v.id, attribute, &type, &length) != NC_NOERR) return text;
   if (type == NC_CHAR) {
     text.resize(length);
-    check(attribute, nc_get_att_text(group, variable, attribute, text.data()));
+    check(attribute, nc_get_att_text(v.group, v.id, attribute, text.data()));
   } else if (type == NC_STRING && length == 1) {
     char* string = nullptr;
-    check(attribute, nc_get_att_string(group, variable, attribute, &string));
+    check(attribute, nc_get_att_string(v.group, v.id, attribute, &string));
     if (string != nullptr) text = string;
     nc_free_string(1, &string);
   }
@@ -270,7 +237,7 @@ std::string NetcdfFile::text(int group, int variable, const char* attribute) con
   return text;
 }
 
-std::vector<std::string> NetcdfFile::attributes() const {
+std::vector<std::string> NetcdfFile::global_attributes() const {
   int count = 0;
   check("", nc_inq_natts(id_, &count));
   std::vector<std::string> names;
@@ -282,27 +249,21 @@ std::vector<std::string> NetcdfFile::attributes() const {
   return names;
 }
 
-std::vector<double> NetcdfFile::numbers(int group, int variable, const char* attribute) const {
+std::vector<double> NetcdfFile::numbers(const NetcdfVariable& v, const char* attribute) const {
   nc_type type = NC_CHAR;
   std::size_t length = 0;
-  if (nc_inq_att(group, variable, attribute, &type, &length) != NC_NOERR) return {};
+  if (nc_inq_att(v.group, v.id, attribute, &type, &length) != NC_NOERR) return {};
   if (type == NC_CHAR || type == NC_STRING) {
     double value = 0;
-    return point_sets::parse(text(group, variable, attribute), value) ? std::vector{value}
-                                                                      : std::vector<double>{};
+    return point_sets::parse(text(v, attribute), value) ? std::vector{value} : std::vector<double>{};
   }
   std::vector<double> values(length);
-  return nc_get_att_double(group, variable, attribute, values.data()) == NC_NOERR ? values
-                                                                                  : std::vector<double>{};
+  return nc_get_att_double(v.group, v.id, attribute, values.data()) == NC_NOERR ? values
+                                                                                : std::vector<double>{};
 }
 
 double NetcdfFile::number(const NetcdfVariable& v, const char* attribute, double otherwise) const {
   const std::vector<double> found = numbers(v, attribute);
-  return found.size() == 1 ? found[0] : otherwise;
-}
-
-double NetcdfFile::number(const char* attribute, double otherwise) const {
-  const std::vector<double> found = numbers(id_, NC_GLOBAL, attribute);
   return found.size() == 1 ? found[0] : otherwise;
 }
 
@@ -323,7 +284,7 @@ std::vector<double> NetcdfFile::values(const NetcdfVariable& v) const {
 
   const Stored stored(v.type, text(v, "_Unsigned"));
   std::vector<double> missing = numbers(v, "_FillValue");
-  if (missing.empty() && !stored.is_byte()) missing.push_back(stored.fill());
+  if (missing.empty() && stored.type.bits != 8) missing.push_back(stored.type.fill);
   for (const double value : numbers(v, "missing_value")) missing.push_back(value);
   for (double& value : missing) value = stored.number(value);
 
@@ -333,7 +294,7 @@ std::vector<double> NetcdfFile::values(const NetcdfVariable& v) const {
   nc_type type = v.type;
   for (const char* const attribute : {"valid_range", "valid_min", "valid_max"})
     nc_inq_atttype(v.group, v.id, attribute, &type);
-  const bool is_unpacked_range = packed && stored.is_integer() && (type == NC_FLOAT || type == NC_DOUBLE);
+  const bool is_unpacked_range = packed && stored.type.bits > 0 && (type == NC_FLOAT || type == NC_DOUBLE);
   if (range.size() != 2) range = {number(v, "valid_min", -INFINITY), number(v, "valid_max", INFINITY)};
   if (!is_unpacked_range)
     for (double& bound : range) bound = std::isfinite(bound) ? stored.number(bound) : bound;

@@ -49,17 +49,12 @@ class NetcdfFile {
   const NetcdfVariable& variable(const std::string& name, const NetcdfVariable* from = nullptr) const;
 
   /// An attribute, "" if it is none or no text.
-  std::string text(const NetcdfVariable& v, const char* attribute) const {
-    return text(v.group, v.id, attribute);
-  }
-  /// An attribute of the file.
-  std::string text(const char* attribute) const { return text(id_, NC_GLOBAL, attribute); }
-  double number(const char* attribute, double otherwise) const;
-  std::vector<std::string> attributes() const;
+  std::string text(const NetcdfVariable& v, const char* attribute) const;
+  /// Has the attributes of the file.
+  NetcdfVariable global() const { return {"", id_, NC_GLOBAL}; }
+  std::vector<std::string> global_attributes() const;
   /// The numbers of an attribute, also one that is written as a text; empty: there are none.
-  std::vector<double> numbers(const NetcdfVariable& v, const char* attribute) const {
-    return numbers(v.group, v.id, attribute);
-  }
+  std::vector<double> numbers(const NetcdfVariable& v, const char* attribute) const;
   double number(const NetcdfVariable& v, const char* attribute, double otherwise) const;
 
   /// The values: `_Unsigned` applied, then NaN for what is missing or out of the valid range, then scale and
@@ -91,8 +86,6 @@ class NetcdfFile {
  private:
   void check(const std::string& variable, int status) const;
   void add_group(int group, const std::string& path);
-  std::string text(int group, int variable, const char* attribute) const;
-  std::vector<double> numbers(int group, int variable, const char* attribute) const;
 
   std::string name_;
   const ReadOptions& options_;

@@ -1,6 +1,7 @@
 // Writers of NetCDF: UGRID, SCRIP, ESMF, and nodes alone.
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -129,11 +130,12 @@ void write_scrip(const OutputFile& file, const Faces& faces, const Notes& notes)
   NetcdfWriter out(file);
   const int size = out.dimension("grid_size", faces.size()), corners = out.dimension("grid_corners", width),
             rank = out.dimension("grid_rank", 1);
-  out.variable("grid_dims", {rank}, {}, [&] { return std::vector{static_cast<std::int32_t>(faces.size())}; });
+  const std::vector<std::int32_t> shape{static_cast<std::int32_t>(faces.size())}, mask(faces.size(), 1);
+  const std::vector<double> of_faces = areas(faces);
+  out.variable("grid_dims", {rank}, {}, shape);
   out.variable("grid_center_lat", {size}, degrees, of_centres.lat);
   out.variable("grid_center_lon", {size}, degrees, of_centres.lon);
-  out.variable("grid_imask", {size}, {{"units", "unitless"}},
-               [&] { return std::vector<std::int32_t>(faces.size(), 1); });
+  out.variable("grid_imask", {size}, {{"units", "unitless"}}, mask);
   for (const auto& [name, values] :
        {std::pair("grid_corner_lat", &of_points.lat), std::pair("grid_corner_lon", &of_points.lon)})
     out.rows<double>({name}, {size, corners}, degrees,
@@ -144,8 +146,7 @@ void write_scrip(const OutputFile& file, const Faces& faces, const Notes& notes)
                        std::fill(next, to + width, next[-1]);  // the last corner again, as SCRIP requires
                      });
   out.variable("grid_area", {size},
-               {{"units", "radians^2"}, {"long_name", "area of the cell on the unit sphere"}},
-               [&] { return areas(faces); });
+               {{"units", "radians^2"}, {"long_name", "area of the cell on the unit sphere"}}, of_faces);
   out.attributes(notes);
   out.write();
 }
@@ -153,6 +154,8 @@ void write_scrip(const OutputFile& file, const Faces& faces, const Notes& notes)
 void write_esmf(const OutputFile& file, const Faces& faces, const Notes& notes) {
   const Faces rings = without_short_sides(faces);
   const LonLat of_centres = centres_of(faces), of_points = angles_of(faces.points, faces.given_points, true);
+  const std::vector<std::int32_t> mask(faces.size(), 1);
+  const std::vector<double> of_faces = areas(faces);
   NetcdfWriter out(file);
   const int nodes = out.dimension("nodeCount", faces.points.size()),
             elements = out.dimension("elementCount", faces.size()),
@@ -170,9 +173,8 @@ void write_esmf(const OutputFile& file, const Faces& faces, const Notes& notes) 
       [&](std::size_t f, std::int32_t* to) { *to = static_cast<std::int32_t>(rings.corners(f)); });
   add_places("centerCoords", elements, of_centres);
   out.variable("elementArea", {elements},
-               {{"units", "radians^2"}, {"long_name", "area of the element on the unit sphere"}},
-               [&] { return areas(faces); });
-  out.variable("elementMask", {elements}, {}, [&] { return std::vector<std::int32_t>(faces.size(), 1); });
+               {{"units", "radians^2"}, {"long_name", "area of the element on the unit sphere"}}, of_faces);
+  out.variable("elementMask", {elements}, {}, mask);
   out.attribute(NC_GLOBAL, "gridType", "unstructured");
   out.attribute(NC_GLOBAL, "version", "0.9");
   out.attributes(notes);
@@ -193,107 +195,94 @@ void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>& points
   out.write();
 }
 
-namespace {
-
-/// `of_lon`, `of_lat`: the dimensions of the coordinates; those of the values are `dimensions`.
-void write_field(NetcdfWriter& out, const NetcdfWriter::Dimensions& dimensions, const Notes& of_values,
-                 const std::vector<double>& lon, const std::vector<double>& lat, const Field& field) {
+void write_netcdf_field(const OutputFile& file, const LonLat& places, const Grid& grid, const Field& field) {
+  const bool is_grid = !grid.lon.empty();
+  const std::vector<double>&lon = is_grid ? grid.lon : places.lon, &lat = is_grid ? grid.lat : places.lat;
+  const Columns table = field.table();
+  NetcdfWriter out(file);
+  NetcdfWriter::Dimensions dimensions;
+  if (is_grid) dimensions.push_back(out.dimension("lat", lat.size()));
+  dimensions.push_back(out.dimension(is_grid ? "lon" : "point", lon.size()));
   out.lon_lat("lon", "lat", dimensions.back(), dimensions.front(), lon, lat);
   out.attribute(NC_GLOBAL, "Conventions", "CF-1.8");
   out.attributes(field.notes);
-  const Columns value{field.value};
-  out.columns(value, dimensions, of_values);
-  out.columns(field.columns, dimensions, of_values);
+  out.columns(table, dimensions, is_grid ? Notes{} : Notes{{"coordinates", "lon lat"}});
   out.write();
-}
-
-}  // namespace
-
-void write_netcdf_field(const OutputFile& file, const LonLat& places, const Field& field) {
-  NetcdfWriter out(file);
-  write_field(out, {out.dimension("point", places.lon.size())}, {{"coordinates", "lon lat"}}, places.lon,
-              places.lat, field);
-}
-
-void write_netcdf_grid(const OutputFile& file, const Grid& grid, const Field& field) {
-  NetcdfWriter out(file);
-  const int n_lat = out.dimension("lat", grid.lat.size()), n_lon = out.dimension("lon", grid.lon.size());
-  write_field(out, {n_lat, n_lon}, {}, grid.lon, grid.lat, field);
 }
 
 namespace {
 
-/// The number in the file of number i here, both from 1.
-std::int32_t number_of(const WeightsEnd& end, std::size_t i) {
-  return static_cast<std::int32_t>(end.numbers.empty() ? i : end.numbers[i - 1]);
-}
+/// The nodes, `_a`, or the places, `_b`, of weights: all that are in the file.
+struct End {
+  std::vector<std::int32_t> shape, mask;
+  std::vector<double> lon, lat, frac;  ///< frac: 1 for those that have an entry
 
-/// Defines the variables of the nodes, `_a`, or of the places, `_b`, of weights. `entries`: the numbers of
-/// all that have an entry.
-void add_end(NetcdfWriter& out, const WeightsEnd& end, const std::string& letter, const std::string& word,
-             const std::vector<std::int32_t>& entries) {
-  std::vector<std::int32_t> shape(end.shape.rbegin(), end.shape.rend());  // the fastest dimension first
-  if (shape.empty()) shape.push_back(static_cast<std::int32_t>(end.at.lon.size()));
-  std::size_t size = 1;
-  for (const std::int32_t length : shape) size *= static_cast<std::size_t>(length);
-  const auto &lon = end.edges.lon, &lat = end.edges.lat;
-  const bool has_cells = !lon.empty();
-  const int rank = out.dimension(word + "_grid_rank", shape.size()), n = out.dimension("n_" + letter, size),
-            corners = out.dimension("nv_" + letter, has_cells ? 4 : 1);
-  const auto of_all = [&end, size](const std::vector<double>& here) {
-    if (end.numbers.empty()) return here;
-    std::vector<double> all(size, std::nan(""));
-    for (std::size_t i = 0; i < here.size(); ++i) all[end.numbers[i] - 1] = here[i];
-    return all;
-  };
-  const Notes degrees{{"units", "degrees"}}, unitless{{"units", "unitless"}},
-      square{{"units", "square radians"}};
-  out.variable(word + "_grid_dims", {rank}, {}, [shape] { return shape; });
-  out.variable("yc_" + letter, {n}, degrees, [=, &end] { return of_all(end.at.lat); });
-  out.variable("xc_" + letter, {n}, degrees, [=, &end] { return of_all(end.at.lon); });
-  const std::size_t columns = has_cells ? lon.size() - 1 : 1;
-  if (has_cells) {
-    out.rows<double>({"yv_" + letter}, {n, corners}, degrees, [&lat, columns](std::size_t i, double* to) {
-      to[0] = to[1] = lat[i / columns], to[2] = to[3] = lat[i / columns + 1];
-    });
-    out.rows<double>({"xv_" + letter}, {n, corners}, degrees, [&lon, columns](std::size_t i, double* to) {
-      to[0] = to[3] = lon[i % columns], to[1] = to[2] = lon[i % columns + 1];
-    });
-  } else {
-    out.variable("yv_" + letter, {n, corners}, degrees, [=, &end] { return of_all(end.at.lat); });
-    out.variable("xv_" + letter, {n, corners}, degrees, [=, &end] { return of_all(end.at.lon); });
-  }
-  out.variable("mask_" + letter, {n}, unitless, [&end, size] {
-    std::vector<std::int32_t> mask(size, end.numbers.empty() ? 1 : 0);
-    for (const std::size_t number : end.numbers) mask[number - 1] = 1;
-    return mask;
-  });
-  out.rows<double>({"area_" + letter}, {n}, square, [=, &lon, &lat](std::size_t i, double* to) {
-    if (!has_cells) return;
-    const double south = lat[i / columns] / kRadian, north = lat[i / columns + 1] / kRadian;
-    *to = (lon[i % columns + 1] - lon[i % columns]) / kRadian * 2 * std::sin((north - south) / 2) *
-          std::cos((north + south) / 2);
-  });
-  out.variable("frac_" + letter, {n}, unitless, [&entries, size] {
-    std::vector<double> frac(size);
+  /// `entries`: the numbers of all that have one.
+  End(const WeightsEnd& here, const std::vector<std::int32_t>& entries)
+      : shape(here.shape.rbegin(), here.shape.rend()) {  // the fastest dimension first
+    if (shape.empty()) shape.push_back(static_cast<std::int32_t>(here.at.lon.size()));
+    const std::size_t size = std::accumulate(
+        shape.begin(), shape.end(), std::size_t{1},
+        [](std::size_t product, std::int32_t n) { return product * static_cast<std::size_t>(n); });
+    mask.resize(size);
+    frac.resize(size);
+    lon.resize(size, std::nan(""));
+    lat.resize(size, std::nan(""));
+    for (std::size_t i = 0; i < here.at.lon.size(); ++i) {
+      const std::size_t k = here.number(i) - 1;
+      mask[k] = 1, lon[k] = here.at.lon[i], lat[k] = here.at.lat[i];
+    }
     for (const std::int32_t number : entries) frac[static_cast<std::size_t>(number) - 1] = 1;
-    return frac;
-  });
-}
+  }
+
+  /// Defines the variables. `edges`: between cells, or empty.
+  void add_to(NetcdfWriter& out, const Grid& edges, const std::string& letter,
+              const std::string& word) const {
+    const bool has_cells = !edges.lon.empty();
+    const int rank = out.dimension(word + "_grid_rank", shape.size()),
+              n = out.dimension("n_" + letter, mask.size()),
+              corners = out.dimension("nv_" + letter, has_cells ? 4 : 1);
+    const Notes degrees{{"units", "degrees"}}, unitless{{"units", "unitless"}},
+        square{{"units", "square radians"}};
+    const std::size_t columns = has_cells ? edges.lon.size() - 1 : 1;
+    out.variable(word + "_grid_dims", {rank}, {}, shape);
+    out.variable("yc_" + letter, {n}, degrees, lat);
+    out.variable("xc_" + letter, {n}, degrees, lon);
+    if (has_cells) {
+      out.rows<double>({"yv_" + letter}, {n, corners}, degrees, [&edges, columns](std::size_t i, double* to) {
+        to[0] = to[1] = edges.lat[i / columns], to[2] = to[3] = edges.lat[i / columns + 1];
+      });
+      out.rows<double>({"xv_" + letter}, {n, corners}, degrees, [&edges, columns](std::size_t i, double* to) {
+        to[0] = to[3] = edges.lon[i % columns], to[1] = to[2] = edges.lon[i % columns + 1];
+      });
+    } else {
+      out.variable("yv_" + letter, {n, corners}, degrees, lat);
+      out.variable("xv_" + letter, {n, corners}, degrees, lon);
+    }
+    out.variable("mask_" + letter, {n}, unitless, mask);
+    out.rows<double>({"area_" + letter}, {n}, square, [=, &edges](std::size_t i, double* to) {
+      if (!has_cells) return;
+      const double south = edges.lat[i / columns] / kRadian, north = edges.lat[i / columns + 1] / kRadian;
+      *to = (edges.lon[i % columns + 1] - edges.lon[i % columns]) / kRadian * 2 *
+            std::sin((north - south) / 2) * std::cos((north + south) / 2);
+    });
+    out.variable("frac_" + letter, {n}, unitless, frac);
+  }
+};
 
 }  // namespace
 
 void write_weights(const OutputFile& file, const Weights& weights, const WeightsEnd& nodes,
                    const WeightsEnd& places, const std::string& history) {
   std::vector<std::int32_t> cols, rows;
-  cols.reserve(weights.node.size());
-  rows.reserve(weights.node.size());
   for (const std::int32_t node : weights.node)
-    cols.push_back(number_of(nodes, static_cast<std::size_t>(node)));
-  for (std::size_t i = 1; i < weights.begin.size(); ++i) rows.resize(weights.begin[i], number_of(places, i));
+    cols.push_back(static_cast<std::int32_t>(nodes.number(static_cast<std::size_t>(node) - 1)));
+  for (std::size_t i = 0; i + 1 < weights.begin.size(); ++i)
+    rows.resize(weights.begin[i + 1], static_cast<std::int32_t>(places.number(i)));
+  const End a(nodes, cols), b(places, rows);
   NetcdfWriter out(file);
-  add_end(out, nodes, "a", "src", cols);
-  add_end(out, places, "b", "dst", rows);
+  a.add_to(out, nodes.edges, "a", "src");
+  b.add_to(out, places.edges, "b", "dst");
   const int n_s = out.dimension("n_s", weights.node.size());
   out.variable("col", {n_s}, {}, cols);
   out.variable("row", {n_s}, {}, rows);

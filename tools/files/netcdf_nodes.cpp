@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "files/measures.h"
 #include "files/nearest.h"
 #include "files/netcdf_file.h"
 #include "files/text_table.h"
@@ -57,23 +58,17 @@ std::string paths_of(const std::vector<const Variable*>& variables) {
   return listed(names);
 }
 
-/// True if a 64-bit integer of the values is not a double.
-bool need_digits(const Variable& v, const std::vector<double>& values) {
-  return (v.type == NC_INT64 || v.type == NC_UINT64) &&
-         std::any_of(values.begin(), values.end(), [](double x) { return std::fabs(x) > 0x1p53; });
-}
-
 /// A variable of numbers or texts.
 Column read_column(const File& file, const Variable& v) {
   Column column{v.name(), file.text(v, "long_name"), file.text(v, "units")};
   if (v.has_numbers()) column.numbers = file.values(v);
-  const bool is_packed = v.has_numbers() && file.is_packed(v);
-  if (!v.has_numbers() || (!is_packed && !file.is_read_in_parts() && need_digits(v, column.numbers))) {
+  const bool are_integers = v.type != NC_FLOAT && v.type != NC_DOUBLE && !file.is_packed(v);
+  const bool need_digits = are_integers && largest_of(column.numbers) > 0x1p53 && !file.is_read_in_parts();
+  if (!v.has_numbers() || need_digits) {
     column.numbers.clear();
     column.texts = file.texts(v);
-    return column;
   }
-  column.whole = v.type != NC_FLOAT && v.type != NC_DOUBLE && !is_packed &&
+  column.whole = are_integers && !column.is_text() &&
                  std::all_of(column.numbers.begin(), column.numbers.end(),
                              [](double x) { return -0x1p31 <= x && x < 0x1p31; });
   return column;
@@ -130,12 +125,11 @@ constexpr std::pair<const char*, const char*> kUsual[] = {
 using Pair = std::pair<const Variable*, const Variable*>;
 
 /// The position of a pair in the list of usual names; behind its end if it is not there.
-std::size_t rank_of(const Pair& pair) {
-  std::size_t rank = 0;
-  while (rank < std::size(kUsual) &&
-         (pair.first->name() != kUsual[rank].first || pair.second->name() != kUsual[rank].second))
-    ++rank;
-  return rank;
+std::ptrdiff_t rank_of(const Pair& pair) {
+  const auto are_names = [&](const auto& names) {
+    return pair.first->name() == names.first && pair.second->name() == names.second;
+  };
+  return std::find_if(std::begin(kUsual), std::end(kUsual), are_names) - std::begin(kUsual);
 }
 
 /// The longitudes and latitudes of a file by what its attributes and names say.
@@ -178,13 +172,6 @@ struct Candidates {
   }
 };
 
-std::string why_not_rotated(const std::string& names) {
-  return fmt::format(
-      "{}: angles of a rotated pole, not longitudes and latitudes, which `cdo "
-      "setgridtype,curvilinear` adds to the file; if they are not, say --columns LON,LAT",
-      names);
-}
-
 /// The longitudes and latitudes that the attribute `coordinates` of the variable `value` names. Else the
 /// candidates whose dimensions are those of `value`, of these those with an attribute that says what they
 /// are, and of these a usual pair, or the only one.
@@ -193,7 +180,10 @@ Pair lon_lat_of(const File& file, const std::string& value) {
   const std::vector<const Variable*>&lons = candidates.lons, &lats = candidates.lats,
                           &rotated = candidates.rotated;
   if (lons.empty() && lats.empty()) {
-    if (!rotated.empty()) file.fail(why_not_rotated(paths_of(rotated)));
+    if (!rotated.empty())
+      file.fail(paths_of(rotated) +
+                ": angles of a rotated pole, not longitudes and latitudes, which `cdo "
+                "setgridtype,curvilinear` adds to the file; if they are not, say --columns LON,LAT");
     if (file.find("nodeCoords") != nullptr && file.find("elementConn") != nullptr)
       file.fail(
           "an ESMF mesh: make a table of its corners, nodeCoords, or of its cells, centerCoords, by `python3 "
@@ -237,18 +227,10 @@ Pair lon_lat_of(const File& file, const std::string& value) {
   return pairs.front();
 }
 
-/// Longitudes or latitudes.
-struct AnglesOfNodes {
-  const Variable& variable;
-  std::vector<double> values;
-  bool are_degrees;
-};
-
 /// True if the angles are in degrees, since radians are never as large.
 bool are_beyond_radians(const std::vector<double>& values, bool are_latitudes) {
   constexpr double kRightAngle = 1.5707963267948966, kRounding = 1 + 1e-6;  // of single precision
-  double largest = 0;
-  for (const double angle : values) largest = std::max(largest, std::fabs(angle));
+  const double largest = largest_of(values);
   return largest > (are_latitudes ? 1 : 4) * kRightAngle * kRounding &&
          largest <= (are_latitudes ? 90 : 360) * kRounding;
 }
@@ -269,17 +251,17 @@ bool in_degrees(const File& file, const Variable& v, const std::vector<double>& 
 }
 
 /// Reads angles. Radians of type float that mean a multiple of pi/2 become the double that means it.
-AnglesOfNodes read_angles(const File& file, const Variable& v, bool are_latitudes) {
-  AnglesOfNodes angles{v, read_of_nodes(file, v), true};
+std::vector<double> read_angles(const File& file, const Variable& v, bool are_latitudes, bool& are_degrees) {
+  std::vector<double> angles = read_of_nodes(file, v);
   if (what_holds(file, v) == (are_latitudes ? Holds::longitudes : Holds::latitudes))
     file.fail(fmt::format("variable {} holds {}: give the longitudes first, --columns LON,LAT",
                           excerpt(v.path), are_latitudes ? "longitudes" : "latitudes"));
   if (const std::vector<int> dimensions = v.dimensions_of_places(); dimensions.size() > 2)
     file.fail(fmt::format("variable {}: expected one place per node; take one time out, say by ncks -d {},0",
                           file.shape(v.path, dimensions), file.dimension_name(dimensions[0])));
-  angles.are_degrees = in_degrees(file, v, angles.values, are_latitudes);
-  if (v.type == NC_FLOAT && !angles.are_degrees && !file.is_packed(v))
-    for (double& angle : angles.values) angle = point_sets::radians_of_single(angle);
+  are_degrees = in_degrees(file, v, angles, are_latitudes);
+  if (v.type == NC_FLOAT && !are_degrees && !file.is_packed(v))
+    for (double& angle : angles) angle = point_sets::radians_of_single(angle);
   return angles;
 }
 
@@ -293,49 +275,43 @@ struct Places {
   std::string names = "";  ///< "lon lat in degrees"
 };
 
+/// If one is in degrees and the other in radians, both become degrees.
 Places from_angles(const File& file, const Pair& pair) {
-  const AnglesOfNodes lon = read_angles(file, *pair.first, false),
-                      lat = read_angles(file, *pair.second, true);
-  const std::string lon_name = excerpt(lon.variable.path), lat_name = excerpt(lat.variable.path);
-  const Angles angles{lon.values.data(), lat.values.data(), 1, lon.are_degrees, lat.are_degrees};
-  if (const std::size_t bad = first_beyond_pole(angles, lat.values.size()); bad < lat.values.size())
-    file.fail(fmt::format(
-        "variable {}, value {}: {} is beyond the pole{}", lat_name, file.before(lat.variable) + bad + 1,
-        lat.values[bad],
-        !lat.are_degrees ? ": is the attribute units wrong, and are these degrees?"
-        : lon.values.size() == lat.values.size()
-            ? hint_beyond_pole(
-                  angles, lat.values.size(),
-                  what_holds(file, lat.variable) == Holds::unknown ? lat_name + "," + lon_name : "")
-            : ""));
+  const Variable &lon = *pair.first, &lat = *pair.second;
   Places places;
-  places.variables = {pair.first, pair.second};
-  places.dimensions = dimensions_of_nodes(lon.variable, lat.variable);
-  if (lon.variable.dimensions_of_places() == lat.variable.dimensions_of_places()) {
-    places.given.lon = lon.values;
-    places.given.lat = lat.values;
-  } else {
+  bool lon_in_degrees, lat_in_degrees;
+  LonLat& given = places.given;
+  given.lon = read_angles(file, lon, false, lon_in_degrees);
+  given.lat = read_angles(file, lat, true, lat_in_degrees);
+  given.degrees = lon_in_degrees || lat_in_degrees;
+  if (lon_in_degrees != lat_in_degrees)
+    for (double& angle : lon_in_degrees ? given.lat : given.lon) angle *= kRadian;
+  if (const std::size_t bad = first_beyond_pole(given); bad < given.lat.size())
+    file.fail(fmt::format("variable {}, value {}: {} is beyond the pole{}", excerpt(lat.path),
+                          file.before(lat) + bad + 1, given.lat[bad],
+                          !lat_in_degrees ? ": is the attribute units wrong, and are these degrees?"
+                          : given.lon.size() == given.lat.size()
+                              ? hint_beyond_pole(given, what_holds(file, lat) == Holds::unknown
+                                                            ? excerpt(lat.path) + "," + excerpt(lon.path)
+                                                            : "")
+                              : ""));
+  places.variables = {&lon, &lat};
+  places.dimensions = dimensions_of_nodes(lon, lat);
+  if (lon.dimensions_of_places() != lat.dimensions_of_places()) {
     if (places.dimensions.empty())
       file.fail(fmt::format("variables {} and {}: expected one shape, or two axes of one dimension each",
-                            lon_name, lat_name));
-    file.expect_few(lat.variable, lat.values.size(), lon.values.size());
+                            excerpt(lon.path), excerpt(lat.path)));
+    file.expect_few(lat, given.lat.size(), given.lon.size());
     if (file.is_read_in_parts())
       file.fail("a grid: several ranks read a list of nodes, each its part: use `pstripack convert`");
-    const auto degrees_of = [](const AnglesOfNodes& axis) {
-      std::vector<double> values = axis.values;
-      for (double& angle : values) angle *= axis.are_degrees ? 1 : 57.29577951308232;
-      return values;
-    };
-    places.grid = {degrees_of(lon), degrees_of(lat)};
-    places.given = Grid{lon.values, lat.values}.places();
+    const LonLat axes = angles_of({}, given, true);
+    places.grid = {axes.lon, axes.lat};
+    const bool degrees = given.degrees;
+    given = Grid{given.lon, given.lat}.places();
+    given.degrees = degrees;
   }
-  places.points =
-      points_of({places.given.lon.data(), places.given.lat.data(), 1, lon.are_degrees, lat.are_degrees},
-                places.given.lon.size());
-  places.given.degrees = lat.are_degrees;
-  places.names = fmt::format("{} {} in {}", pair.first->path, pair.second->path,
-                             lat.are_degrees ? "degrees" : "radians");
-  if (lon.are_degrees != lat.are_degrees) places.given = {};  // angles in two units cannot be written back
+  places.points = points_of(given);
+  places.names = fmt::format("{} {} in {}", lon.path, lat.path, given.degrees ? "degrees" : "radians");
   return places;
 }
 
@@ -566,10 +542,11 @@ Columns read_columns(const File& file, const Places& places, const Names& wanted
 }
 
 void read_notes(const File& file, Notes& notes) {
-  for (const std::string& name : file.attributes())
-    if (is_note(name)) notes[name] = file.text(name.c_str());
+  for (const std::string& name : file.global_attributes())
+    if (is_note(name)) notes[name] = file.text(file.global(), name.c_str());
   // What MPAS' tools write in a mesh that they make of this one.
-  const std::string parents = file.text("file_id"), older = file.text("parent_id");
+  const std::string parents = file.text(file.global(), "file_id"),
+                    older = file.text(file.global(), "parent_id");
   if (!parents.empty()) notes["parent_id"] = parents + (older.empty() ? "" : "\n" + older);
 }
 
@@ -626,7 +603,7 @@ Nodes read_netcdf(const std::string& name, const ReadOptions& options, const std
   if (nodes.density.size() != nodes.points.size()) nodes.density.clear();
   if (options.with_triangles && x != nullptr && file.find("cellsOnVertex") != nullptr)
     read_mpas_triangles(file, nodes);
-  const double radius = file.number("sphere_radius", 1);
+  const double radius = file.number(file.global(), "sphere_radius", 1);
   if (radius > 0 && std::isfinite(radius)) nodes.radius = radius;
   return nodes;
 }

@@ -69,23 +69,14 @@ class NetcdfWriter {
     return variable;
   }
   /// Defines a variable of double or std::int32_t. `values`: this process's rows, which must outlive the
-  /// writer, or a function that returns them.
+  /// writer.
   template <class Value>
   int variable(const std::string& name, const Dimensions& dimensions, const Notes& attributes,
                const std::vector<Value>& values) {
-    const int id = define(name, type_of<Value>(), dimensions, attributes);
-    writing_.emplace_back([this, id, &values] { put(id, values.data()); });
-    return id;
+    return elements<Value>(name, dimensions, attributes, [&values](std::size_t k) { return values[k]; });
   }
   template <class Value>
   int variable(const std::string&, const Dimensions&, const Notes&, std::vector<Value>&&) = delete;
-  template <class Values>
-  int variable(const std::string& name, const Dimensions& dimensions, const Notes& attributes,
-               const Values& values) {
-    const int id = define(name, type_of<typename decltype(values())::value_type>(), dimensions, attributes);
-    writing_.emplace_back([this, id, values] { put(id, values().data()); });
-    return id;
-  }
   /// Defines longitudes and latitudes, in degrees, with the units that CF requires.
   void lon_lat(const std::string& lon, const std::string& lat, int of_lon, int of_lat,
                const std::vector<double>& lons, const std::vector<double>& lats) {
@@ -93,15 +84,11 @@ class NetcdfWriter {
     variable(lat, {of_lat}, {{"units", "degrees_north"}, {"standard_name", "latitude"}}, lats);
   }
   /// Defines the vectors as three variables.
-  void components(const std::array<std::string, 3>& names, int dimension, const Notes& attributes,
+  void components(const std::vector<std::string>& names, int dimension, const Notes& attributes,
                   const std::vector<Point>& points) {
-    constexpr double Point::*kComponents[] = {&Point::x, &Point::y, &Point::z};
-    for (std::size_t k = 0; k < 3; ++k)
-      variable(names[k], {dimension}, attributes, [&points, component = kComponents[k]] {
-        std::vector<double> values(points.size());
-        for (std::size_t i = 0; i < points.size(); ++i) values[i] = points[i].*component;
-        return values;
-      });
+    rows<double>(names, {dimension}, attributes, [&points](std::size_t i, double* to) {
+      to[0] = points[i].x, to[1] = points[i].y, to[2] = points[i].z;
+    });
   }
   /// Defines the density of the nodes, if it is not empty.
   void density(const std::vector<double>& values, int nodes, const Notes& attributes = {}) {
@@ -112,18 +99,25 @@ class NetcdfWriter {
   void columns(const Columns& all, const Dimensions& dimensions, const Notes& of_mesh) {
     for (const Column& c : all) {
       const std::string name = free_name(c.name);
-      Dimensions shape = dimensions;
+      int id;
       if (c.is_text()) {
         expect_short_texts(c);
-        shape.push_back(dimension(name + "_length", longest(c)));
+        id = rows<char>(
+            {name}, {dimensions[0], dimension(name + "_length", longest(c))}, {},
+            [&c](std::size_t i, char* to) { std::copy(c.texts[i].begin(), c.texts[i].end(), to); })[0];
+      } else if (c.whole) {
+        id = elements<std::int32_t>(name, dimensions, {},
+                                    [&c](std::size_t k) { return static_cast<std::int32_t>(c.numbers[k]); });
+      } else {
+        id = elements<double>(name, dimensions, {}, [&c](std::size_t k) {
+          return std::isnan(c.numbers[k]) ? NC_FILL_DOUBLE : c.numbers[k];
+        });
       }
-      const int id = define(name, c.is_text() ? NC_CHAR : c.whole ? NC_INT : NC_DOUBLE, shape);
       const bool renamed = name != c.name && c.long_name.empty();
       if (renamed || !c.long_name.empty()) attribute(id, "long_name", renamed ? c.name : c.long_name);
       if (!c.units.empty()) attribute(id, "units", c.units);
       if (!c.is_text() && !c.whole) attribute(id, "_FillValue", NC_FILL_DOUBLE);
       for (const auto& [attribute_name, text] : of_mesh) attribute(id, attribute_name.c_str(), text);
-      writing_.emplace_back([this, id, &c] { put_column(id, c); });
     }
   }
   /// Defines variables of one shape, at most 16 if they have one dimension, else one: row(i, values) sets the
@@ -134,8 +128,8 @@ class NetcdfWriter {
     std::vector<int> ids;
     for (const std::string& name : names)
       ids.push_back(define(name, type_of<Value>(), dimensions, attributes));
-    const std::size_t width = dimensions.size() == 1 ? 1 : rows_.at(dimensions[1]).second;
-    const std::size_t count = rows_.at(dimensions[0]).second;
+    const std::size_t width = width_of(dimensions),
+                      count = dimensions.empty() ? 1 : rows_.at(dimensions[0]).second;
     writing_.emplace_back([this, ids, count, width, row] { put_rows<Value>(ids, count, width, row); });
     return ids;
   }
@@ -166,18 +160,18 @@ class NetcdfWriter {
   }
   template <class Value>
   static constexpr nc_type type_of() {
-    return std::is_same_v<Value, double> ? NC_DOUBLE : NC_INT;
+    return std::is_same_v<Value, double> ? NC_DOUBLE : std::is_same_v<Value, char> ? NC_CHAR : NC_INT;
   }
-  /// Writes `rows` rows of the variable, of this process's from `first` on; by default all.
+  /// Writes `rows` rows of the variable, of this process's from `first` on.
   template <class Value>
-  void put(int variable, const Value* values, std::size_t first = 0, std::size_t rows = 0) const {
+  void put(int variable, const Value* values, std::size_t first, std::size_t rows) const {
     std::vector<std::size_t> start, count;
     for (const int dimension : dimensions_.at(variable)) {
       const auto [before, here] = rows_.at(dimension);
       start.push_back(before);
       count.push_back(here);
     }
-    if (rows > 0) start[0] += first, count[0] = rows;
+    if (!start.empty()) start[0] += first, count[0] = rows;
     if constexpr (std::is_same_v<Value, double>)
       check(nc_put_vara_double(id_, variable, start.data(), count.data(), values));
     else if constexpr (std::is_same_v<Value, char>)
@@ -185,20 +179,18 @@ class NetcdfWriter {
     else
       check(nc_put_vara_int(id_, variable, start.data(), count.data(), values));
   }
-  void put_column(int id, const Column& c) const {
-    if (c.is_text()) {
-      const std::size_t length = longest(c);
-      std::string bytes;
-      for (std::size_t i = 0; i < c.size(); ++i) (bytes += c.texts[i]).resize((i + 1) * length);
-      put(id, bytes.data());
-    } else if (c.whole) {
-      put(id, std::vector<std::int32_t>(c.numbers.begin(), c.numbers.end()).data());
-    } else {
-      std::vector<double> filled = c.numbers;
-      for (double& v : filled)
-        if (std::isnan(v)) v = NC_FILL_DOUBLE;
-      put(id, filled.data());
-    }
+  /// Defines a variable: value(k) is its k-th value.
+  template <class Value, class ValueAt>
+  int elements(const std::string& name, const Dimensions& dimensions, const Notes& attributes,
+               const ValueAt& value) {
+    const std::size_t width = width_of(dimensions);
+    return rows<Value>({name}, dimensions, attributes, [value, width](std::size_t i, Value* to) {
+      for (std::size_t k = 0; k < width; ++k) to[k] = value(i * width + k);
+    })[0];
+  }
+  /// Number of values in a row of the first dimension.
+  std::size_t width_of(const Dimensions& dimensions) const {
+    return dimensions.size() < 2 ? 1 : rows_.at(dimensions[1]).second;
   }
   /// Some rows at a time.
   template <class Value, class Row>
@@ -210,17 +202,13 @@ class NetcdfWriter {
     std::vector<Value> values(most * together);
     for (std::size_t first = 0; first < rows; first += most) {
       const std::size_t count = std::min(most, rows - first);
-      pstripack::parallel_pieces(
-          count, pstripack::threads_for(10 * count), [&](std::size_t begin, std::size_t end, int) {
-            std::array<Value, 16> one;  // a row of all variables, if there are several
-            for (std::size_t i = begin; i < end; ++i) {
-              Value* const to = variables.size() > 1 ? one.data() : values.data() + i * width;
-              std::fill(to, to + together, Value{});
-              row(first + i, to);
-              for (std::size_t k = 0; variables.size() > 1 && k < together; ++k)
-                values[k * most + i] = one[k];
-            }
-          });
+      pstripack::parallel_for(count, 10 * count, [&](std::size_t i) {
+        std::array<Value, 16> one;  // a row of all variables, if there are several
+        Value* const to = variables.size() > 1 ? one.data() : values.data() + i * width;
+        std::fill(to, to + together, Value{});
+        row(first + i, to);
+        for (std::size_t k = 0; variables.size() > 1 && k < together; ++k) values[k * most + i] = one[k];
+      });
       for (std::size_t k = 0; k < variables.size(); ++k)
         put(variables[k], values.data() + k * most, first, count);
     }

@@ -51,12 +51,7 @@ std::string_view first_word(std::string_view text) {
 void set_angles(Nodes& nodes, LonLat given, Units units, const std::string& to_exchange) {
   const std::size_t n = given.lon.size();
   if (units == Units::said_or_unmistakable) {
-    const auto largest = [](const std::vector<double>& values) {
-      double most = 0;
-      for (const double v : values) most = std::max(most, std::fabs(v));
-      return most;
-    };
-    const double lon = largest(given.lon), lat = largest(given.lat);
+    const double lon = largest_of(given.lon), lat = largest_of(given.lat);
     if (lon <= 4 * kRightAngle * kSlack && lat <= kRightAngle * kSlack)
       throw std::runtime_error(fmt::format(
           "{}: the angles may be degrees or radians: say --units degrees or --units radians (longitudes "
@@ -66,20 +61,33 @@ void set_angles(Nodes& nodes, LonLat given, Units units, const std::string& to_e
     units = Units::degrees;
   }
   given.degrees = units == Units::degrees;
-  const Angles angles{given.lon.data(), given.lat.data(), 1, given.degrees, given.degrees};
-  if (const std::size_t bad = first_beyond_pole(angles, n); bad < n)
+  if (const std::size_t bad = first_beyond_pole(given); bad < n)
     throw std::runtime_error(
         fmt::format("{}: {}: latitude {} is beyond the pole: the columns are 'lon lat', in {}{}", nodes.file,
                     nodes.place(bad), given.lat[bad], given.degrees ? "degrees" : "radians",
-                    hint_beyond_pole(angles, n, to_exchange)));
+                    hint_beyond_pole(given, to_exchange)));
   for (std::size_t i = 0; !given.degrees && i < n; ++i)
     if (std::fabs(given.lon[i]) > 8 * kRightAngle)
       throw std::runtime_error(
           fmt::format("{}: {}: longitude {} is more than two turns in radians; --units degrees?", nodes.file,
                       nodes.place(i), given.lon[i]));
-  nodes.points = points_of(angles, n);
+  nodes.points = points_of(given);
   nodes.kind += given.degrees ? ", lon lat in degrees" : ", lon lat in radians";
   nodes.given = std::move(given);
+}
+
+/// Sets the nodes from longitudes and latitudes, or from x, y and z.
+void set_places(Nodes& nodes, std::vector<std::vector<double>> axes, Units units,
+                const std::string& to_exchange) {
+  if (axes.size() == 2) {
+    LonLat given;
+    given.lon = std::move(axes[0]);
+    given.lat = std::move(axes[1]);
+    return set_angles(nodes, std::move(given), units, to_exchange);
+  }
+  for (std::size_t i = 0; i < axes[0].size(); ++i)
+    nodes.points.push_back({axes[0][i], axes[1][i], axes[2][i]});
+  nodes.kind += ", x y z";
 }
 
 /// Which columns of a text are read.
@@ -91,29 +99,22 @@ struct Choice {
   bool is_lonlat() const { return place.size() == 2; }
 };
 
-/// The candidate column that names this axis. If two do, the first of those that the caller has chosen; else
-/// throws.
-std::optional<std::size_t> axis_among(const std::vector<std::size_t>& candidates, char axis,
-                                      const TextLayout& layout, bool chosen, const std::string& where) {
-  std::optional<std::size_t> found;
-  for (const std::size_t c : candidates) {
-    if (axis_of(layout.name(c)) != axis || (found && chosen)) continue;
-    if (found)
-      throw std::runtime_error(
-          fmt::format("{}: the header names column '{}' twice, {} and {}: choose columns by number", where,
-                      point_sets::excerpt(layout.name(c)), *found + 1, c + 1));
-    found = c;
-  }
-  return found;
-}
-
-/// The columns of the coordinates by name; empty if no names fit.
+/// The columns of the coordinates by name; empty if no names fit. If two name one axis, the first of those
+/// that the caller has chosen; else throws.
 std::vector<std::size_t> place_by_names(const std::vector<std::size_t>& candidates, const TextLayout& layout,
                                         Coordinates coordinates, bool chosen, const std::string& where) {
   const auto axes = [&](std::string_view names) {
     std::vector<std::size_t> found;
-    for (const char axis : names)
-      if (const auto c = axis_among(candidates, axis, layout, chosen, where)) found.push_back(*c);
+    for (const char axis : names) {
+      std::vector<std::size_t> all = candidates;
+      const auto is_other = [&](std::size_t c) { return axis_of(layout.name(c)) != axis; };
+      all.erase(std::remove_if(all.begin(), all.end(), is_other), all.end());
+      if (all.size() > 1 && !chosen)
+        throw std::runtime_error(
+            fmt::format("{}: the header names column '{}' twice, {} and {}: choose columns by number", where,
+                        point_sets::excerpt(layout.name(all[0])), all[0] + 1, all[1] + 1));
+      if (!all.empty()) found.push_back(all[0]);
+    }
     return found;
   };
   if (coordinates != Coordinates::xyz) {
@@ -300,19 +301,9 @@ void read_text(Nodes& nodes, std::string_view text, const ReadOptions& options) 
     make_names_differ(nodes.columns, choice.is_lonlat() ? std::vector<std::string>{"lon", "lat"}
                                                         : std::vector<std::string>{});
   }
-  const auto axis = [&](std::size_t k) -> std::vector<double>& { return rows.numbers[choice.place[k]]; };
-  if (choice.is_lonlat()) {
-    LonLat given;
-    given.lon = std::move(axis(0));
-    given.lat = std::move(axis(1));
-    set_angles(nodes, std::move(given), units_of(layout, choice, options.units, nodes.file),
-               fmt::format("{},{}", choice.place[1] + 1, choice.place[0] + 1));
-    return;
-  }
-  nodes.points.resize(nodes.lines.size());
-  for (std::size_t i = 0; i < nodes.points.size(); ++i)
-    nodes.points[i] = {axis(0)[i], axis(1)[i], axis(2)[i]};
-  nodes.kind += ", x y z";
+  set_places(nodes, values_at(rows.numbers, choice.place),
+             choice.is_lonlat() ? units_of(layout, choice, options.units, nodes.file) : options.units,
+             fmt::format("{},{}", choice.place[1] + 1, choice.place[0] + 1));
 }
 
 void read_raw(Nodes& nodes, std::string_view bytes, const ReadOptions& options) {
@@ -326,19 +317,14 @@ void read_raw(Nodes& nodes, std::string_view bytes, const ReadOptions& options) 
         fmt::format("{}: {} bytes are not rows of {} doubles of 8 bytes", nodes.file, bytes.size(), columns));
   std::vector<double> values(bytes.size() / sizeof(double));
   std::memcpy(values.data(), bytes.data(), bytes.size());
-  for (std::size_t i = 0; i < values.size(); ++i)
+  std::vector<std::vector<double>> axes(columns);
+  for (std::size_t i = 0; i < values.size(); ++i) {
     if (!std::isfinite(values[i]) && !(options.keep_missing && std::isnan(values[i])))
       throw std::runtime_error(fmt::format("{}: {}: column {} is not finite: remove the row", nodes.file,
                                            nodes.place(i / columns), i % columns + 1));
-  if (columns == 2) {
-    LonLat given;
-    for (std::size_t i = 0; i < values.size(); i += 2)
-      given.lon.push_back(values[i]), given.lat.push_back(values[i + 1]);
-    return set_angles(nodes, std::move(given), options.units, "");
+    axes[i % columns].push_back(values[i]);
   }
-  for (std::size_t i = 0; i < values.size(); i += 3)
-    nodes.points.push_back({values[i], values[i + 1], values[i + 2]});
-  nodes.kind += ", x y z";
+  set_places(nodes, std::move(axes), options.units, "");
 }
 
 /// OFF: comments behind #, the word OFF, the counts of vertices, faces and edges, vertices `x y z`, faces
@@ -452,59 +438,50 @@ void Nodes::keep(const std::vector<std::size_t>& indices) {
   if (shape.empty()) shape.push_back(points.size());
   if (numbers.empty())
     for (std::size_t i = 0; i < points.size(); ++i) numbers.push_back(before + i + 1);
-  files::keep(numbers, indices);
-  files::keep(points, indices);
-  files::keep(given.lon, indices);
-  files::keep(given.lat, indices);
-  files::keep(lines, indices);
-  files::keep(density, indices);
-  const auto keep_column = [&](Column& column) {
-    files::keep(column.numbers, indices);
-    files::keep(column.texts, indices);
-  };
-  keep_column(value);
-  for (Column& column : columns) keep_column(column);
+  numbers = values_at(numbers, indices);
+  points = values_at(points, indices);
+  given = at_nodes(given, indices);
+  lines = values_at(lines, indices);
+  density = values_at(density, indices);
+  value = at_nodes(Columns{value}, indices)[0];
+  columns = at_nodes(columns, indices);
   grid = {};
   triangles.clear();
   vertices.clear();
 }
 
-std::string hint_beyond_pole(const Angles& a, std::size_t n, const std::string& to_exchange) {
-  const auto largest = [&](const double* values) {
-    double most = 0;
-    for (std::size_t i = 0; i < n; ++i) most = std::max(most, std::fabs(values[a.stride * i]));
-    return most;
-  };
-  if (!a.lat_in_degrees) return "; --units degrees?";
-  if (largest(a.lon) > 90 || largest(a.lat) > 360) return "";
+double largest_of(const std::vector<double>& values) {
+  double most = 0;
+  for (const double v : values) most = std::max(most, std::fabs(v));
+  return most;
+}
+
+std::string hint_beyond_pole(const LonLat& a, const std::string& to_exchange) {
+  if (!a.degrees) return "; --units degrees?";
+  if (largest_of(a.lon) > 90 || largest_of(a.lat) > 360) return "";
   return "; are they exchanged?" + (to_exchange.empty() ? "" : " Then say --columns " + to_exchange);
 }
 
-std::vector<Point> points_of(const Angles& a, std::size_t n) {
-  const auto sin_lon = a.lon_in_degrees ? point_sets::sin_degrees : point_sets::sin_radians;
-  const auto cos_lon = a.lon_in_degrees ? point_sets::cos_degrees : point_sets::cos_radians;
-  const auto sin_lat = a.lat_in_degrees ? point_sets::sin_degrees : point_sets::sin_radians;
-  const auto cos_lat = a.lat_in_degrees ? point_sets::cos_degrees : point_sets::cos_radians;
-  std::vector<Point> points(n);
-  pstripack::parallel_pieces(n, pstripack::threads_for(n), [&](std::size_t first, std::size_t last, int) {
-    for (std::size_t i = first; i < last; ++i) {
-      const double lon = a.lon[a.stride * i], lat = a.lat[a.stride * i];
-      if (std::isnan(lon) || std::isnan(lat)) {
-        points[i] = {lon + lat, lon + lat, lon + lat};
-        continue;
-      }
-      const double r = cos_lat(lat);
-      points[i] = {r * cos_lon(lon), r * sin_lon(lon), sin_lat(lat)};
+std::vector<Point> points_of(const LonLat& a) {
+  const auto sine = a.degrees ? point_sets::sin_degrees : point_sets::sin_radians;
+  const auto cosine = a.degrees ? point_sets::cos_degrees : point_sets::cos_radians;
+  std::vector<Point> points(a.lon.size());
+  pstripack::parallel_for(points.size(), points.size(), [&](std::size_t i) {
+    const double lon = a.lon[i], lat = a.lat[i], either = lon + lat;
+    if (std::isnan(either)) {
+      points[i] = {either, either, either};
+    } else {
+      const double r = cosine(lat);
+      points[i] = {r * cosine(lon), r * sine(lon), sine(lat)};
     }
   });
   return points;
 }
 
-std::size_t first_beyond_pole(const Angles& a, std::size_t n) {
-  const double pole = (a.lat_in_degrees ? 90 : kRightAngle) * kSlack;
-  std::size_t i = 0;
-  while (i < n && !(std::fabs(a.lat[a.stride * i]) > pole)) ++i;
-  return i;
+std::size_t first_beyond_pole(const LonLat& a) {
+  const double pole = (a.degrees ? 90 : kRightAngle) * kSlack;
+  const auto is_beyond = [&](double lat) { return std::fabs(lat) > pole; };
+  return static_cast<std::size_t>(std::find_if(a.lat.begin(), a.lat.end(), is_beyond) - a.lat.begin());
 }
 
 void set_triangles(Nodes& nodes, const std::vector<long long>& corners, long long first) {

@@ -106,18 +106,15 @@ bool is_netcdf(const std::string& file);
 
 // Below: one reader per container.
 
-/// Arrays of longitudes and latitudes, each in degrees or radians.
-struct Angles {
-  const double *lon, *lat;
-  std::size_t stride;  ///< distance from one value to the next, in doubles
-  bool lon_in_degrees, lat_in_degrees;
-};
-std::vector<Point> points_of(const Angles& angles, std::size_t n);
-/// The first latitude beyond a pole by more than the rounding of single precision; n if there is none.
-std::size_t first_beyond_pole(const Angles& angles, std::size_t n);
+std::vector<Point> points_of(const LonLat& angles);
+/// The index of the first latitude beyond a pole by more than the rounding of single precision; their number
+/// if there is none.
+std::size_t first_beyond_pole(const LonLat& angles);
+/// The largest absolute value; 0: there are none.
+double largest_of(const std::vector<double>& values);
 /// A guess why latitudes are beyond the pole: "; ..." or nothing. `to_exchange`: the value of --columns that
 /// exchanges longitudes and latitudes; empty: none does.
-std::string hint_beyond_pole(const Angles& angles, std::size_t n, const std::string& to_exchange);
+std::string hint_beyond_pole(const LonLat& angles, const std::string& to_exchange);
 
 /// The names of all variables of a NetCDF file.
 std::vector<std::string> netcdf_variables(const std::string& file);

@@ -1,30 +1,22 @@
 #pragma once
 // Parts of cells, collected as faces.
 
+#include <array>
+#include <boost/functional/hash.hpp>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include "base/splitmix64.h"
 #include "files/map_rings.h"
 
 namespace files {
 
-struct HashOfBits {
-  std::size_t operator()(const Point& p) const {
-    std::uint64_t hash = 0;
-    for (const double v : {p.x + 0.0, p.y + 0.0, p.z + 0.0}) {  // -0 equals 0
-      std::uint64_t bits;
-      std::memcpy(&bits, &v, sizeof bits);
-      hash = pstripack::splitmix64(hash ^ bits);
-    }
-    return hash;
-  }
-};
+/// Key: x, y, z.
+using NumberOfPoint =
+    std::unordered_map<std::array<double, 3>, std::int32_t, boost::hash<std::array<double, 3>>>;
 
 /// Collects rings as faces. Corners with the same coordinates are stored once.
 class Pieces {
@@ -36,7 +28,7 @@ class Pieces {
     std::vector<std::int32_t> corners;
     for (const MapCorner& c : ring) {
       const auto [known, is_new] =
-          number_.try_emplace(c.p, static_cast<std::int32_t>(faces_.points.size() + 1));
+          number_.try_emplace({c.p.x, c.p.y, c.p.z}, static_cast<std::int32_t>(faces_.points.size() + 1));
       if (is_new) {
         faces_.points.push_back(c.p);
         faces_.given_points.lon.push_back(wrapped(c.lon));
@@ -60,13 +52,13 @@ class Pieces {
     const std::size_t begin = cells_.begin[cell];
     if (ring.size() != cells_.corners(cell)) return false;
     for (std::size_t k = 0; k < ring.size(); ++k)
-      if (ring[k].p != cells_.points[static_cast<std::size_t>(cells_.corner[begin + k]) - 1]) return false;
+      if (ring[k].p != cells_.point(begin + k)) return false;
     return true;
   }
 
   const Faces& cells_;
   Faces faces_;
-  std::unordered_map<Point, std::int32_t, HashOfBits> number_;
+  NumberOfPoint number_;
 };
 
 }  // namespace files

@@ -4,9 +4,10 @@
 // differences from the middle: a polygon of metres has as many digits as one of continents.
 #include <algorithm>
 #include <array>
+#include <boost/functional/hash.hpp>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
+#include <map>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -78,12 +79,19 @@ struct Box {
     add(Corner{box.east, box.north});
   }
   Ring ring() const { return {{west, south}, {east, south}, {east, north}, {west, north}}; }
+  Place middle() const { return {(west + east) / 2, (south + north) / 2}; }
 };
 Box box_of(const Rings& rings) {
   Box box;
   for (const Ring& ring : rings)
     for (const Corner& c : ring) box.add(c);
   return box;
+}
+
+/// Calls visit(p, q) for the sides of the ring, from p to q.
+template <class Visit>
+void for_each_side(const Ring& ring, const Visit& visit) {
+  for (std::size_t i = 0; i < ring.size(); ++i) visit(ring[i], ring[(i + 1) % ring.size()]);
 }
 
 /// Positive if counterclockwise.
@@ -97,19 +105,15 @@ double area_on_plane(const Ring& ring) {
 
 double length_on_plane(const Ring& ring) {
   double around = 0;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Corner &p = ring[i], &q = ring[(i + 1) % ring.size()];
-    around += std::hypot(q.u - p.u, q.v - p.v);
-  }
+  for_each_side(ring, [&](const Corner& p, const Corner& q) { around += std::hypot(q.u - p.u, q.v - p.v); });
   return around;
 }
 
 bool holds(const Ring& ring, const Corner& p) {
   bool inside = false;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Corner &a = ring[i], &b = ring[(i + 1) % ring.size()];
+  for_each_side(ring, [&](const Corner& a, const Corner& b) {
     if ((a.v > p.v) != (b.v > p.v) && p.u < a.u + (p.v - a.v) / (b.v - a.v) * (b.u - a.u)) inside = !inside;
-  }
+  });
   return inside;
 }
 
@@ -131,13 +135,13 @@ double area_on_sphere(const Ring& ring) {
 /// The plane that touches the sphere in a place.
 class Plane {
  public:
-  Plane(double lon, double lat)
-      : lon_(lon),
-        lat_(lat),
-        sine_(point_sets::sin_degrees(lat)),
-        cosine_(point_sets::cos_degrees(lat)),
-        up_(point_sets::from_degrees(lon, lat)),
-        east_{-point_sets::sin_degrees(lon), point_sets::cos_degrees(lon), 0},
+  explicit Plane(const Place& place)
+      : lon_(place.first),
+        lat_(place.second),
+        sine_(point_sets::sin_degrees(lat_)),
+        cosine_(point_sets::cos_degrees(lat_)),
+        up_(point_sets::from_degrees(lon_, lat_)),
+        east_{-point_sets::sin_degrees(lon_), point_sets::cos_degrees(lon_), 0},
         north_(cross(up_, east_)) {}
 
   Corner at(double lon, double lat) const {
@@ -267,14 +271,8 @@ std::vector<Rings> pieces_on_map(const Rings& rings) {
   return pieces;
 }
 
-struct HashOfSide {
-  std::size_t operator()(const std::pair<Place, Place>& s) const {
-    return HashOfBits()({s.first.first, s.first.second, s.second.first}) ^
-           HashOfBits()({s.second.second, 0, 0});
-  }
-};
 /// Into how many arcs a side is divided, if more than one: in all polygons into as many.
-using Divisions = std::unordered_map<std::pair<Place, Place>, int, HashOfSide>;
+using Divisions = std::unordered_map<std::pair<Place, Place>, int, boost::hash<std::pair<Place, Place>>>;
 
 std::pair<Place, Place> side_between(const Corner& p, const Corner& q) {
   return std::minmax(Place(p.u, p.v), Place(q.u, q.v));
@@ -298,24 +296,13 @@ int divisions_of(const Corner& p, const Corner& q, double deviation) {
       std::ceil(std::max({1.0, std::sqrt(bend / deviation), std::max(a, b) * kRadian / 10})));
 }
 
-template <class Visit>
-void for_each_side(const std::vector<Rings>& pieces, const Visit& visit) {
-  for (const Rings& rings : pieces)
-    for (const Ring& ring : rings)
-      for (std::size_t i = 0; i < ring.size(); ++i) visit(ring[i], ring[(i + 1) % ring.size()]);
-}
-
 /// One piece of a polygon on its plane.
 struct Sheet {
   Plane plane;
   Rings rings;
   std::vector<Place> places;  ///< of its corners
 
-  Sheet(const Rings& piece, const Divisions& divisions) : Sheet(piece, divisions, box_of(piece)) {}
-
- private:
-  Sheet(const Rings& piece, const Divisions& divisions, const Box& box)
-      : plane((box.west + box.east) / 2, (box.south + box.north) / 2) {
+  Sheet(const Rings& piece, const Divisions& divisions) : plane(box_of(piece).middle()) {
     for (const Ring& on_map : piece) {
       Ring ring;
       const auto add = [&](double lon, double lat) {
@@ -325,8 +312,7 @@ struct Sheet {
         places.emplace_back(lon, lat);
         ring.push_back(c);
       };
-      for (std::size_t i = 0; i < on_map.size(); ++i) {
-        const Corner &p = on_map[i], &q = on_map[(i + 1) % on_map.size()];
+      for_each_side(on_map, [&](const Corner& p, const Corner& q) {
         add(p.u, p.v);
         const auto side = side_between(p, q);
         const auto found = divisions.find(side);
@@ -337,7 +323,7 @@ struct Sheet {
           add(side.first.first + t * (side.second.first - side.first.first),
               side.first.second + t * (side.second.second - side.first.second));
         }
-      }
+      });
       while (ring.size() > 1 && ring.front().u == ring.back().u && ring.front().v == ring.back().v)
         ring.pop_back();
       if (ring.size() > 2) rings.push_back(std::move(ring));
@@ -347,19 +333,24 @@ struct Sheet {
 
 void add_divisions(const std::vector<Rings>& pieces, Divisions& divisions) {
   double area = 0, around = 0;
-  for (const Rings& piece : pieces)
+  Rings all;
+  for (const Rings& piece : pieces) {
+    all.insert(all.end(), piece.begin(), piece.end());
     for (const Ring& ring : Sheet(piece, {}).rings) area += area_on_sphere(ring);
-  for_each_side(pieces, [&](const Corner& p, const Corner& q) {
-    around += std::hypot(q.v - p.v, (q.u - p.u) * point_sets::cos_degrees((p.v + q.v) / 2)) / kRadian;
-  });
+  }
+  for (const Ring& ring : all)
+    for_each_side(ring, [&](const Corner& p, const Corner& q) {
+      around += std::hypot(q.v - p.v, (q.u - p.u) * point_sets::cos_degrees((p.v + q.v) / 2)) / kRadian;
+    });
   // At most some 10,000 arcs for a side as long as all.
   const double deviation = std::max(1.5 * kOfArea * std::fabs(area) / around, 1e-9 * around);
-  for_each_side(pieces, [&](const Corner& p, const Corner& q) {
-    const int n = divisions_of(p, q, deviation);
-    if (n == 1) return;
-    int& known = divisions[side_between(p, q)];
-    known = std::max(known, n);
-  });
+  for (const Ring& ring : all)
+    for_each_side(ring, [&](const Corner& p, const Corner& q) {
+      const int n = divisions_of(p, q, deviation);
+      if (n == 1) return;
+      int& known = divisions[side_between(p, q)];
+      known = std::max(known, n);
+    });
 }
 
 /// Great circles of the sides of cells.
@@ -415,38 +406,25 @@ class Sides {
 class SameCorners {
  public:
   const MapCorner& of(const MapCorner& corner) {
-    const auto square = [](double v) { return std::floor(v / kSquare); };
-    const Point at{square(corner.p.x), square(corner.p.y), square(corner.p.z)};
-    const auto near = [](double v, double s) {  // the neighbouring square that may hold others, or the same
-      return v / kSquare - s < 0.5 ? s - 1 : s + 1;
-    };
-    for (int k = 0; k < 8; ++k) {
-      const auto found =
-          corners_.find({k & 1 ? near(corner.p.x, at.x) : at.x, k & 2 ? near(corner.p.y, at.y) : at.y,
-                         k & 4 ? near(corner.p.z, at.z) : at.z});
-      if (found == corners_.end()) continue;
-      for (const MapCorner& c : found->second)
-        if (const Point d = minus(c.p, corner.p); dot(d, d) < kSameCorner * kSameCorner) return c;
-    }
-    return corners_[at].emplace_back(corner);
+    // Heights above a plane along which few corners lie differ by no more than their places.
+    const double height = dot(corner.p, {0.36, 0.48, 0.8});
+    for (auto c = corners_.lower_bound(height - 2 * kSameCorner);
+         c != corners_.end() && c->first <= height + 2 * kSameCorner; ++c)
+      if (length(minus(c->second.p, corner.p)) < kSameCorner) return c->second;
+    return corners_.emplace(height, corner)->second;
   }
 
  private:
-  static constexpr double kSquare = 4 * kSameCorner;
-  std::unordered_map<Point, std::vector<MapCorner>, HashOfBits> corners_;
+  std::multimap<double, MapCorner> corners_;
 };
 
 class Clipper {
  public:
   explicit Clipper(const Faces& cells)
-      : cells_(cells), sides_(cells), angles_(cells.points, true), pieces_(cells) {
-    for (std::size_t f = 0; f < cells.size(); ++f) {
-      double radius = 0;
-      for (std::size_t k = cells.begin[f]; k < cells.begin[f + 1]; ++k)
-        radius = std::max(radius, angle_between(cells.centres[f],
-                                                cells.points[static_cast<std::size_t>(cells.corner[k]) - 1]));
-      radius_.push_back(radius);
-    }
+      : cells_(cells), sides_(cells), angles_(cells.points, true), radius_(cells.size()), pieces_(cells) {
+    cells.for_each_corner([&](std::size_t f, std::size_t k) {
+      radius_[f] = std::max(radius_[f], angle_between(cells.centres[f], cells.point(k)));
+    });
   }
 
   /// The sum of the areas of the parts, and that of the sheet.
@@ -530,11 +508,10 @@ class Clipper {
       std::size_t most = hole.size() - 1;
       for (std::size_t k = 0; k < outlines.size(); ++k) {
         std::size_t inside = 0;
-        for (std::size_t i = 0; i < hole.size(); ++i) {  // corners may touch the outline
-          const Corner &p = hole[i], &q = hole[(i + 1) % hole.size()];
+        for_each_side(hole, [&](const Corner& p, const Corner& q) {  // corners may touch the outline
           if (holds(outlines[k], p)) ++inside;
           if (holds(outlines[k], {(p.u + q.u) / 2, (p.v + q.v) / 2})) ++inside;
-        }
+        });
         if (inside > most) most = inside, best = k;
       }
       if (best == outlines.size()) fail();

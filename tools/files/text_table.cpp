@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/parallel_for.h"
 #include "files/nearest.h"
 #include "numbers.h"
 #include "text_file.h"
@@ -108,29 +107,13 @@ std::string remedy_for(std::string_view word) {
   return ": correct it, remove the row, or choose other --columns";
 }
 
-class Lines {
- public:
-  Lines(std::string_view text, std::size_t first_line) : text_(text), next_(first_line) {}
-
-  bool next(std::string_view& line) {
-    if (at_ == text_.size()) return false;
-    begin_ = at_;
-    const void* const end = std::memchr(text_.data() + at_, '\n', text_.size() - at_);
-    const std::size_t stop = end == nullptr
-                                 ? text_.size()
-                                 : static_cast<std::size_t>(static_cast<const char*>(end) - text_.data());
-    line = text_.substr(at_, stop - at_);
-    at_ = std::min(stop + 1, text_.size());
-    ++next_;
-    return true;
-  }
-  std::size_t begin() const { return begin_; }      ///< offset of the line
-  std::size_t number() const { return next_ - 1; }  ///< of the line
-
- private:
-  std::string_view text_;
-  std::size_t at_ = 0, begin_ = 0, next_;
-};
+/// Takes the first line off the text, and returns it without its end.
+std::string_view take_line(std::string_view& text) {
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return line;
+}
 
 class Cells {
  public:
@@ -320,70 +303,45 @@ std::string of_other_count(std::string_view line, std::size_t found, const TextL
       commas_split_numbers ? "write a decimal comma as a point" : "complete the row, or remove it");
 }
 
-/// The part of a text that one thread reads.
-struct Piece {
-  TextRows rows;
-  std::vector<char> has_words;  ///< of each column: true if a word in it is not a number
-  std::size_t newlines = 0, segments = 0, error_line = 0;
-  std::string error;
-};
-
 class Reader {
  public:
-  Reader(const TextLayout& layout, const std::vector<Role>& roles)
+  Reader(const TextLayout& layout, const std::vector<Role>& roles, const std::string& file)
       : layout_(layout),
         roles_(roles),
-        nan_in_places_(std::find(roles.begin(), roles.end(), Role::value) != roles.end()) {}
-
-  void read(std::string_view text, Piece& piece) const {
-    const std::size_t columns = layout_.columns;
-    piece.rows.numbers.resize(columns);
-    piece.has_words.resize(columns);
-    Lines lines(text, 1);
-    std::string_view line;
-    while (lines.next(line)) {
-      ++piece.newlines;
-      if (!is_row(line, piece)) continue;
-      const std::size_t found = read_row(line, lines.number(), piece);
-      if (piece.error_line > 0) return;
-      if (found == 0) continue;
-      if (found != columns) return error(piece, lines.number(), of_other_count(line, found, layout_));
-      piece.rows.lines.push_back(lines.number());
-      piece.rows.segments.push_back(static_cast<double>(piece.segments));
-    }
+        file_(file),
+        nan_in_places_(std::find(roles.begin(), roles.end(), Role::value) != roles.end()),
+        line_(layout.line - 1),
+        has_words_(layout.columns) {
+    rows_.numbers.resize(layout.columns);
+    rows_.texts.resize(layout.columns);
   }
 
-  /// Reads the cells of these columns as texts.
-  void read_texts(std::string_view text, const std::vector<std::size_t>& columns, TextRows& rows) const {
-    Lines lines(text, 1);
-    std::string_view line, word;
-    Piece ignored;
-    while (lines.next(line)) {
-      if (!is_row(line, ignored)) continue;
-      Cells cells(line, layout_.separator, layout_.has_quotes);
-      auto wanted = columns.begin();
-      for (std::size_t c = 0; wanted != columns.end() && cells.more() && cells.word(word); ++c)
-        if (c == *wanted) {
-          rows.texts[c].push_back(layout_.has_quotes ? without_doubled_quotes(word) : std::string(word));
-          ++wanted;
-        }
+  TextRows read(std::string_view text) {
+    while (!text.empty()) {
+      std::string_view line = take_line(text);
+      ++line_;
+      if (is_row(line)) read_row(line);
     }
+    if (layout_.line_of_count > 0 && layout_.count != rows_.lines.size())
+      fail(file_, layout_.line_of_count,
+           fmt::format(
+               "a single number is the count of the points that follow; there are {}: correct or remove it",
+               rows_.lines.size()));
+    if (segments_ == 0) rows_.segments.clear();
+    for (std::size_t c = 0; c < layout_.columns; ++c)
+      if (has_words_[c]) rows_.numbers[c].clear();
+    return std::move(rows_);
   }
 
  private:
-  static void error(Piece& piece, std::size_t line, std::string what) {
-    piece.error_line = line;
-    piece.error = std::move(what);
-  }
-
   /// Removes comments. False if nothing remains.
-  bool is_row(std::string_view& line, Piece& piece) const {
+  bool is_row(std::string_view& line) {
     std::size_t begin = 0;
     while (begin < line.size() && is_space(line[begin])) ++begin;
     if (begin == line.size()) return false;
     if (begins_comment(line[begin]) && error_at(line.substr(begin)).empty()) return false;
     if (line[begin] == '>') {
-      ++piece.segments;
+      ++segments_;
       return false;
     }
     if (layout_.header_line == 0 && layout_.has_quotes && layout_.separator != ' ' &&
@@ -392,8 +350,7 @@ class Reader {
     return true;
   }
 
-  /// Reads a row; returns the number of its columns.
-  std::size_t read_row(std::string_view line, std::size_t number, Piece& piece) const {
+  void read_row(std::string_view line) {
     Cells cells(line, layout_.separator, layout_.has_quotes);
     std::size_t c = 0;
     std::string_view word;
@@ -401,25 +358,28 @@ class Reader {
       const Role role = c < roles_.size() ? roles_[c] : Role::skipped;
       double value = kMissing;
       if (role == Role::skipped || role == Role::carried || !cells.number(value)) {
-        if (!cells.word(word)) {
-          error(piece, number, "a double quote without an end: add it, or say --quote none");
-          return 0;
+        if (!cells.word(word))
+          fail(file_, line_, "a double quote without an end: add it, or say --quote none");
+        if (role == Role::carried) {
+          rows_.texts[c].push_back(layout_.has_quotes ? without_doubled_quotes(word) : std::string(word));
+          if (!has_words_[c]) has_words_[c] = is_name_of_digits(word);
         }
-        if (role == Role::carried && !piece.has_words[c]) piece.has_words[c] = is_name_of_digits(word);
-        if (role != Role::skipped && (piece.has_words[c] || !is_number(word, value))) {
+        if (role != Role::skipped && (has_words_[c] || !is_number(word, value))) {
           value = kMissing;
           if (const std::string wrong = why_not(word, c, role); !wrong.empty()) {
             // Look for another separator before blaming a word.
             const std::string other = of_other_count(line, 0, layout_);
-            error(piece, number, other.rfind("separated", 0) == 0 && layout_.columns > 1 ? other : wrong);
-            return 0;
+            fail(file_, line_, other.rfind("separated", 0) == 0 && layout_.columns > 1 ? other : wrong);
           }
-          if (role == Role::carried && !is_missing(word)) piece.has_words[c] = 1;
+          if (role == Role::carried && !is_missing(word)) has_words_[c] = true;
         }
       }
-      if (role != Role::skipped) piece.rows.numbers[c].push_back(value);
+      if (role != Role::skipped) rows_.numbers[c].push_back(value);
     }
-    return c;
+    if (c == 0) return;
+    if (c != layout_.columns) fail(file_, line_, of_other_count(line, c, layout_));
+    rows_.lines.push_back(line_);
+    rows_.segments.push_back(segments_);
   }
 
   /// Why the word is not allowed in the column; empty: it is.
@@ -438,7 +398,12 @@ class Reader {
 
   const TextLayout& layout_;
   const std::vector<Role>& roles_;
+  const std::string& file_;
   const bool nan_in_places_;
+  std::size_t line_;
+  double segments_ = 0;
+  std::vector<bool> has_words_;  ///< of each column: a word in it is not a number
+  TextRows rows_;
 };
 
 }  // namespace
@@ -472,8 +437,8 @@ std::vector<std::pair<std::size_t, std::size_t>> fixed_widths(const std::string&
 
 std::string with_tabs(std::string_view text, const std::vector<std::pair<std::size_t, std::size_t>>& widths) {
   std::string table;
-  Lines lines(text, 1);
-  for (std::string_view line; lines.next(line); table += '\n') {
+  for (; !text.empty(); table += '\n') {
+    const std::string_view line = take_line(text);
     if (trimmed(line).empty()) continue;
     for (std::size_t k = 0; k < widths.size(); ++k) {
       const auto [first, last] = widths[k];
@@ -488,10 +453,9 @@ std::string with_tabs(std::string_view text, const std::vector<std::pair<std::si
 namespace {
 
 /// True if the next line with a content is a header line that names coordinates.
-bool is_before_header(Lines lines, const TextFormat& format) {
-  std::string_view line;
-  while (lines.next(line)) {
-    line = trimmed(line);
+bool is_before_header(std::string_view text, const TextFormat& format) {
+  while (!text.empty()) {
+    const std::string_view line = trimmed(take_line(text));
     if (line.empty()) continue;
     TextLayout layout;
     layout.separator = format.separator != '\0' ? format.separator : separator_of(line);
@@ -514,11 +478,10 @@ TextLayout layout_of(std::string_view text, const std::string& file, const TextF
   const std::size_t mark = text.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0;
   if (text.find('\n') == text.npos && trimmed(text).find('\r') != text.npos)
     fail(file, 1, "lines end with CR alone: end them with LF, for example by `tr '\\r' '\\n'`");
-  Lines lines(text.substr(mark), 1);
-  std::string_view line, comment;
+  std::string_view rest = text.substr(mark), comment;
   bool has_row = false;
-  while (!has_row && lines.next(line)) {
-    const std::string_view content = trimmed(line);
+  for (std::size_t number = 1; !has_row && !rest.empty(); ++number) {
+    const std::string_view line = take_line(rest), content = trimmed(line);
     if (content.empty() || content[0] == '>') continue;
     if (begins_comment(content[0]) && error_at(content).empty()) {
       comment = content.substr(1);
@@ -528,33 +491,33 @@ TextLayout layout_of(std::string_view text, const std::string& file, const TextF
     const std::string_view plain = is_whole ? content : trimmed(without_comment(content));
     if (layout.header_line == 0) layout.separator = separator_in(plain);
     const std::vector<std::string> cells = split(plain, layout.separator, layout.has_quotes);
-    double number = 0;
-    if (!cells.empty() && !is_number(cells[0], number) && !has_place(layout.names) &&
-        is_before_header(lines, format)) {  // a title
+    double n = 0;
+    if (!cells.empty() && !is_number(cells[0], n) && !has_place(layout.names) &&
+        is_before_header(rest, format)) {  // a title
       layout.header_line = 0;
       continue;
     }
     if (is_header(cells)) {
       if (layout.header_line > 0)
-        fail(file, lines.number(),
+        fail(file, number,
              fmt::format(
                  "a second header line, after the one in line {}: remove one of them, or put # before it",
                  layout.header_line));
-      layout.header_line = lines.number();
+      layout.header_line = number;
       // The names in a header may contain #.
       layout.separator = separator_in(content);
       set_names(layout, split(content, layout.separator, layout.has_quotes));
       continue;
     }
-    if (double n = 0; layout.header_line == 0 && layout.line_of_count == 0 && cells.size() == 1 &&
-                      is_number(cells[0], n) && n >= 1 && n == std::floor(n)) {
-      layout.line_of_count = lines.number();
+    if (layout.header_line == 0 && layout.line_of_count == 0 && cells.size() == 1 && is_number(cells[0], n) &&
+        n >= 1 && n == std::floor(n)) {
+      layout.line_of_count = number;
       layout.count = static_cast<std::size_t>(std::min(n, 1e18));
       continue;
     }
     has_row = true;
-    layout.begin = mark + lines.begin();
-    layout.line = lines.number();
+    layout.begin = static_cast<std::size_t>(line.data() - text.data());
+    layout.line = number;
     layout.columns = layout.header_line > 0 ? layout.names.size() : cells.size();
   }
   if (!has_row) {
@@ -576,61 +539,7 @@ TextLayout layout_of(std::string_view text, const std::string& file, const TextF
 
 TextRows rows_of(std::string_view text, const std::string& file, const TextLayout& layout,
                  const std::vector<Role>& roles) {
-  const std::string_view rows = text.substr(layout.begin);
-  const Reader reader(layout, roles);
-  const int threads = pstripack::threads_for(rows.size() / 16);
-  std::vector<Piece> pieces(static_cast<std::size_t>(threads));
-  pstripack::ErrorsOfThreads errors(pieces.size());
-  const auto begin_of_line = [&](std::size_t offset) {
-    const std::size_t newline = offset == 0 ? 0 : rows.find('\n', offset - 1);
-    return offset == 0 ? 0 : newline == rows.npos ? rows.size() : newline + 1;
-  };
-  pstripack::parallel_pieces(rows.size(), threads, [&](std::size_t first, std::size_t last, int piece) {
-    const auto k = static_cast<std::size_t>(piece);
-    errors.keep(k, [&] {
-      const std::size_t begin = begin_of_line(first), end = begin_of_line(last);
-      reader.read(rows.substr(begin, end - begin), pieces[k]);
-    });
-  });
-  errors.rethrow();
-
-  std::size_t count = 0, line = layout.line - 1;
-  double segments = 0;
-  std::vector<char> has_words(layout.columns);
-  for (Piece& piece : pieces) {
-    if (piece.error_line > 0) fail(file, line + piece.error_line, piece.error);
-    for (std::size_t& l : piece.rows.lines) l += line;
-    for (double& s : piece.rows.segments) s += segments;
-    count += piece.rows.lines.size();
-    line += piece.newlines;
-    segments += static_cast<double>(piece.segments);
-    for (std::size_t c = 0; c < layout.columns; ++c) has_words[c] = has_words[c] || piece.has_words[c];
-  }
-  if (layout.line_of_count > 0 && layout.count != count)
-    fail(file, layout.line_of_count,
-         fmt::format(
-             "a single number is the count of the points that follow; there are {}: correct or remove it",
-             count));
-
-  TextRows all = std::move(pieces[0].rows);
-  const auto append = [&](auto& to, const auto& from) {
-    to.reserve(count);
-    to.insert(to.end(), from.begin(), from.end());
-  };
-  for (std::size_t k = 1; k < pieces.size(); ++k) {
-    append(all.lines, pieces[k].rows.lines);
-    append(all.segments, pieces[k].rows.segments);
-    for (std::size_t c = 0; c < layout.columns; ++c) append(all.numbers[c], pieces[k].rows.numbers[c]);
-  }
-  if (segments == 0) all.segments.clear();
-  all.texts.resize(layout.columns);
-  std::vector<std::size_t> of_texts;
-  for (std::size_t c = 0; c < layout.columns; ++c) {
-    if (has_words[c]) all.numbers[c].clear();
-    if (roles[c] == Role::carried) of_texts.push_back(c);
-  }
-  if (!of_texts.empty()) reader.read_texts(rows, of_texts, all);
-  return all;
+  return Reader(layout, roles, file).read(text.substr(layout.begin));
 }
 
 std::vector<std::size_t> columns_named(const std::string& wanted, const TextLayout& layout,

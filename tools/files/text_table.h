@@ -58,7 +58,7 @@ struct TextRows {
   std::vector<double> segments;  ///< number of `>` lines before each row; empty: there are no such lines
 };
 
-/// Reads the rows, on several threads. If there is a value column, coordinates may be NaN: the caller then
+/// Reads the rows. If there is a value column, coordinates may be NaN: the caller then
 /// reports the node.
 TextRows rows_of(std::string_view text, const std::string& file, const TextLayout& layout,
                  const std::vector<Role>& roles);

@@ -8,8 +8,7 @@ namespace files {
 namespace {
 
 [[noreturn]] void refuse(const std::string& file) {
-  throw std::runtime_error(
-      file + ": a NetCDF file, which this build cannot write: build with libnetcdf-dev");
+  throw std::runtime_error(file + ": a NetCDF file, which this build cannot write: build with libnetcdf-dev");
 }
 
 }  // namespace
@@ -25,11 +24,12 @@ void write_mpas(const OutputFile& file, const MpasMesh&, const MpasValues&) { re
 void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>&, const NodeValues&) {
   refuse(file.name());
 }
-void write_netcdf_field(const OutputFile& file, const LonLat&, const Field&) { refuse(file.name()); }
+void write_netcdf_field(const OutputFile& file, const LonLat&, const Grid&, const Field&) {
+  refuse(file.name());
+}
 void write_weights(const OutputFile& file, const Weights&, const WeightsEnd&, const WeightsEnd&,
                    const std::string&) {
   refuse(file.name());
 }
-void write_netcdf_grid(const OutputFile& file, const Grid&, const Field&) { refuse(file.name()); }
 
 }  // namespace files

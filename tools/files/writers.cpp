@@ -252,6 +252,15 @@ void print_cell(TextWriter& out, const Column& column, std::size_t i, std::strin
     out.print("{}", column.numbers[i]);
 }
 
+/// The cells of row i, each but the first after the separator.
+void print_row(TextWriter& out, const Columns& table, std::size_t i, const char* separator,
+               std::string (*text)(const std::string&), const char* missing, bool as_written = false) {
+  for (std::size_t k = 0; k < table.size(); ++k) {
+    if (k > 0) out.print("{}", separator);
+    print_cell(out, table[k], i, text, missing, as_written);
+  }
+}
+
 /// The header line has units in the form that text_table.h reads. A missing value is an empty cell.
 void write_csv(const OutputFile& file, const Columns& table) {
   TextWriter out(file);
@@ -262,10 +271,7 @@ void write_csv(const OutputFile& file, const Columns& table) {
   }
   out.print("\n");
   for (std::size_t i = 0; i < table[0].size(); ++i) {
-    for (std::size_t k = 0; k < table.size(); ++k) {
-      if (k > 0) out.print(",");
-      print_cell(out, table[k], i, csv_text, "", true);
-    }
+    print_row(out, table, i, ",", csv_text, "", true);
     out.print("\n");
   }
   out.close();
@@ -345,10 +351,7 @@ void write_gmt(const OutputFile& file, const Faces& faces) {
   out.print("# FEATURE_DATA\n");
   for (std::size_t f = 0; f < faces.size(); ++f) {
     out.print(">\n# @D");
-    for (std::size_t k = 0; k < table.size(); ++k) {
-      if (k > 0) out.print("|");
-      print_cell(out, table[k], f, gmt_text, "NaN");
-    }
+    print_row(out, table, f, "|", gmt_text, "NaN");
     out.print("\n# @P\n");
     for (std::size_t k = faces.begin[f]; k <= faces.begin[f + 1]; ++k) {
       const std::size_t slot = k < faces.begin[f + 1] ? k : faces.begin[f];
@@ -482,11 +485,6 @@ void write_hull(const OutputFile& file, Format format, const Mesh& mesh) {
 }
 
 void write_nodes(const OutputFile& file, Format format, const std::vector<Point>& points,
-                 const std::vector<double>& density, const Notes& notes) {
-  write_nodes(file, format, points, {{}, density, {}, notes});
-}
-
-void write_nodes(const OutputFile& file, Format format, const std::vector<Point>& points,
                  const NodeValues& values) {
   if (format == Format::netcdf) return write_netcdf_nodes(file, points, values);
   if (format == Format::csv) return write_csv(file, table_of(points, values));
@@ -514,24 +512,20 @@ void write_field(const OutputFile& file, const LonLat& places, const Field& fiel
   const auto name = [](const Column& c) {
     return c.units.empty() ? c.name : fmt::format("{} [{}]", c.name, c.units);
   };
-  out.print("# lon lat {}", name(field.value));
-  for (const Column& c : field.columns) out.print(" {}", name(c));
+  const Columns table = field.table();
+  out.print("# lon lat");
+  for (const Column& c : table) out.print(" {}", name(c));
   out.print("\n");
   for (std::size_t i = 0; i < field.value.size(); ++i) {
-    out.print("{} {} {}", places.lon[i], places.lat[i], field.value.numbers[i]);
-    for (const Column& c : field.columns) {
-      out.print(" ");
-      print_cell(out, c, i, blank_text, "nan");
-    }
+    out.print("{} {} ", places.lon[i], places.lat[i]);
+    print_row(out, table, i, " ", blank_text, "nan");
     out.print("\n");
   }
   out.close();
 }
 
 void write_csv_field(const OutputFile& file, const LonLat& places, const Field& field) {
-  Columns columns{field.value};
-  columns.insert(columns.end(), field.columns.begin(), field.columns.end());
-  write_csv(file, with_angles(columns, places));
+  write_csv(file, with_angles(field.table(), places));
 }
 
 }  // namespace files

@@ -63,32 +63,35 @@ void write_links(const OutputFile& file, Format format, const Mesh& mesh);
 void write_hull(const OutputFile& file, Format format, const Mesh& mesh);
 /// What may be known about nodes without a mesh.
 struct NodeValues {
-  LonLat given;
-  std::vector<double> density;
-  Columns columns;
-  Notes notes;
+  LonLat given = {};
+  std::vector<double> density = {};
+  Columns columns = {};
+  Notes notes = {};
   Share share = {};
 };
 /// Writes nodes alone: geojson, csv, xyz, lonlat, netcdf, raw. NetCDF also holds density, columns and notes,
 /// GeoJSON columns and notes, CSV columns.
 void write_nodes(const OutputFile& file, Format format, const std::vector<Point>& points,
-                 const NodeValues& values);
-void write_nodes(const OutputFile& file, Format format, const std::vector<Point>& points,
-                 const std::vector<double>& density = {}, const Notes& notes = {});
+                 const NodeValues& values = {});
 
 /// Values at places (NaN: missing), and the columns of the places.
 struct Field {
   Column value;
   Columns columns;
   Notes notes;
+
+  Columns table() const {
+    Columns all{value};
+    all.insert(all.end(), columns.begin(), columns.end());
+    return all;
+  }
 };
 
 /// Text: lines of lon lat (degrees), value and columns, `nan` for a missing number. CSV: the same columns.
 void write_field(const OutputFile& file, const LonLat& places, const Field& field);
 void write_csv_field(const OutputFile& file, const LonLat& places, const Field& field);
-/// NetCDF with CF conventions; a missing value is _FillValue.
-void write_netcdf_field(const OutputFile& file, const LonLat& places, const Field& field);
-void write_netcdf_grid(const OutputFile& file, const Grid& grid, const Field& field);
+/// NetCDF with CF conventions; a missing value is _FillValue. `grid`: that of the places, or empty.
+void write_netcdf_field(const OutputFile& file, const LonLat& places, const Grid& grid, const Field& field);
 
 /// The nodes or the places of weights.
 struct WeightsEnd {
@@ -96,6 +99,8 @@ struct WeightsEnd {
   std::vector<std::size_t> numbers;  ///< of each in the file, from 1; empty: 1, 2, 3 ...
   std::vector<std::size_t> shape;    ///< of all in the file; empty: a list of these
   Grid edges;                        ///< between the cells, if the places are a grid
+
+  std::size_t number(std::size_t i) const { return numbers.empty() ? i + 1 : numbers[i]; }
 };
 
 /// Writes weights as ESMF_RegridWeightGen does: the value of place row[k] has the part S[k] of that of node

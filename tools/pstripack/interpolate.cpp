@@ -189,8 +189,7 @@ void interpolate(Options& options) {
     if (!options.points.empty()) return read_points(options);
     files::Nodes all;
     all.given = grid.places();
-    all.points =
-        files::points_of({all.given.lon.data(), all.given.lat.data(), 1, true, true}, all.given.lon.size());
+    all.points = files::points_of(all.given);
     return all;
   });
   const Interpolation interpolation = progress.step("triangulating", [&] {
@@ -244,12 +243,10 @@ void interpolate(Options& options) {
       field.value.numbers = std::move(result.values);
       field.value.whole = false;
       make_names_differ(field.columns, {"lon", "lat", field.value.name});
-      if (to == To::netcdf && options.points.empty())
-        write_netcdf_grid(*file, grid, field);
+      if (to == To::netcdf)
+        write_netcdf_field(*file, at, grid, field);
       else
-        (to == To::netcdf ? files::write_netcdf_field
-         : to == To::csv  ? files::write_csv_field
-                          : files::write_field)(*file, at, field);
+        (to == To::csv ? files::write_csv_field : files::write_field)(*file, at, field);
       file->commit();
     });
   progress.finish(fmt::format("{} ({}), {}, {} outside the nodes{}", counted(nodes.points.size(), "node"),

@@ -82,31 +82,6 @@ TEST(mesh_of_triangles, is_refused_where_they_are_none) {
   EXPECT_NO_THROW(mesh_of(points, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}));
 }
 
-/// The area of a triangle on the unit sphere.
-double area(const Point& a, const Point& b, const Point& c) {
-  return 2 * std::atan2(dot(a, cross(b, c)), 1 + dot(a, b) + dot(b, c) + dot(c, a));
-}
-
-double area(const Faces& faces) {
-  double sum = 0;
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    for (std::size_t k = faces.begin[f] + 2; k < faces.begin[f + 1]; ++k) {
-      const auto at = [&](std::size_t slot) {
-        return faces.points[static_cast<std::size_t>(faces.corner[slot]) - 1];
-      };
-      sum += area(at(faces.begin[f]), at(k - 1), at(k));
-    }
-  return sum;
-}
-
-TEST(faces, cover_the_sphere_once) {
-  for (const char* const family : {"random", "icosahedral", "healpix", "variable"}) {
-    const Mesh mesh = triangulate(point_sets::make(family, 600));
-    EXPECT_NEAR(area(triangle_faces(mesh)), 4 * std::acos(-1), 1e-11) << family;
-    EXPECT_NEAR(area(voronoi_faces(mesh)), 4 * std::acos(-1), 1e-11) << family;
-  }
-}
-
 TEST(areas, are_those_of_the_sphere_and_columns_go_with_nodes_and_faces) {
   EXPECT_NEAR(triangle_area({1, 0, 0}, {1, 1e-9, 0}, {1, 0, 1e-9}) / 5e-19, 1, 1e-6);
   const Points points = point_sets::make("random", 300);

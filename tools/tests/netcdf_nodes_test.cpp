@@ -148,13 +148,6 @@ TEST(netcdf, axes_are_a_grid_and_fields_are_pairs) {
   EXPECT_EQ(points_of(file.closed()).size(), 2u);
 }
 
-TEST(netcdf, lon_and_lat_that_cannot_be_radians_are_degrees) {
-  NetcdfFile file;
-  const int n = file.dimension("n", 2);
-  file.with("lon", {n}, {0, 180}).with("lat", {n}, {-90, 30});
-  EXPECT_NEAR(points_of(file.closed())[1].z, 0.5, 1e-15);
-}
-
 TEST(netcdf, coordinates_may_be_missing_if_the_caller_says_so) {
   NetcdfFile file;  // -999 is _FillValue
   const int n = file.dimension("n", 4);
@@ -226,106 +219,11 @@ TEST(netcdf, coordinates_of_models_are_found) {
   std::remove(name.c_str());
 }
 
-TEST(netcdf, coordinates_that_are_others_or_several_are_refused) {
-  const auto error = [](const auto& fill_in, const std::string& columns = "") {
-    NetcdfFile file;
-    fill_in(file, file.dimension("t", 2), file.dimension("n", 2));
-    ReadOptions options;
-    options.columns = columns;
-    try {
-      read(file.closed(), options);
-    } catch (const std::runtime_error& e) {
-      return std::string(e.what());
-    }
-    return std::string("no error");
-  };
-  const auto has = [](const std::string& text, const char* words) {
-    EXPECT_NE(text.find(words), text.npos) << text;
-  };
-  const auto rotated = [](NetcdfFile& f, int, int n) {
-    f.with("rlon", {n}, {1, 2}, "degrees").text("rlon", "standard_name", "grid_longitude");
-    f.with("rlat", {n}, {1, 2}, "degrees").text("rlat", "standard_name", "grid_latitude");
-  };
-  has(error(rotated), "rlon, rlat: angles of a rotated pole");
-  has(error(rotated, "rlon,rlat"), "no error");  // what the caller says wins over every guess
-  const auto several = [](NetcdfFile& f, int, int n) {
-    f.with("a", {n}, {1, 2}, "degrees_east").with("b", {n}, {1, 2}, "degrees_north");
-    f.with("c", {n}, {1, 2}, "degrees_east").with("d", {n}, {1, 2}, "degrees_north");
-  };
-  has(error(several), "longitudes a, c and latitudes b, d: name two of them by --columns LON,LAT");
-  has(error(several, "b,a"), "variable b holds latitudes: give the longitudes first");
-  has(error([](NetcdfFile& f, int t, int n) {
-        f.with("XLONG", {t, n, n}, std::vector<double>(8)).with("XLAT", {t, n, n}, std::vector<double>(8));
-      }),
-      "variable XLONG(t=2, n=2, n=2): expected one place per node; take one time out, say by ncks -d t,0");
-}
-
-TEST(netcdf, what_cannot_be_used_is_refused_by_name) {
-  const auto error = [](const auto& fill_in) {
-    NetcdfFile file;
-    fill_in(file, file.dimension("n", 2), file.dimension("m", 1));
-    return error_of(file.closed());
-  };
-  EXPECT_NE(error([](NetcdfFile& f, int n, int) {
-              f.with("depth", {n}, {1, 2});
-            }).find("expected variables xCell"),
-            std::string::npos);
-  EXPECT_NE(error([](NetcdfFile& f, int n, int) {
-              f.with("lon", {n}, {1, 2}, "degrees");
-            }).find("there is no variable of latitudes beside lon"),
-            std::string::npos);
-  EXPECT_NE(error([](NetcdfFile& f, int n, int) {
-              f.with("lon", {n}, {1, 2}).with("lat", {n}, {1, 2});
-            }).find("variable lon: units ''; expected degrees or radians"),
-            std::string::npos);
-  EXPECT_NE(error([](NetcdfFile& f, int n, int) {
-              f.with("lon", {n}, {1, 2}, "degrees").with("lat", {n}, {1, 91}, "degrees");
-            }).find("variable lat, value 2: 91 is beyond the pole"),
-            std::string::npos);
-  EXPECT_NE(error([](NetcdfFile& f, int n, int) {
-              f.with("lon", {n}, {1, -999}, "degrees").with("lat", {n}, {1, 2}, "degrees");
-            }).find("variable lon, value 2: missing"),
-            std::string::npos);
-  EXPECT_NE(error([](NetcdfFile& f, int n, int) {
-              f.with("lon", {n}, {1, 2}, "degrees").with("lat", {n, n}, {1, 2, 3, 4}, "degrees");
-            }).find("expected one shape"),
-            std::string::npos);
-  EXPECT_NE(error([](NetcdfFile& f, int n, int m) {
-              f.with("xCell", {n}, {1, 2}).with("yCell", {n}, {1, 2}).with("zCell", {m}, {1});
-            }).find("expected one shape"),
-            std::string::npos);
-}
-
 ReadOptions values_of(const std::string& variable) {
   ReadOptions options;
   options.with_values = true;
   options.variable = variable;
   return options;
-}
-
-TEST(netcdf, what_a_header_announces_is_bounded) {
-  const std::string name = testing::TempDir() + "netcdf_nodes_test_large.nc";
-  const auto error_of_lengths = [&](std::vector<std::size_t> lengths) {
-    int id, variable;
-    nc_create(name.c_str(), NC_CLOBBER | NC_NETCDF4, &id);
-    std::vector<int> dimensions(lengths.size());
-    for (std::size_t d = 0; d < lengths.size(); ++d)
-      nc_def_dim(id, ("n" + std::to_string(d)).c_str(), lengths[d], &dimensions[d]);
-    const std::vector<std::size_t> chunk(lengths.size(), 100);
-    for (const char* axis : {"lon", "lat"}) {
-      nc_def_var(id, axis, NC_DOUBLE, static_cast<int>(dimensions.size()), dimensions.data(), &variable);
-      nc_def_var_chunking(id, variable, NC_CHUNKED, chunk.data());
-    }
-    nc_close(id);
-    const std::string error = error_of(name);  // of lon or lat, whichever is read first
-    return error.substr(std::min(error.size(), name.size() + 16));
-  };
-  EXPECT_EQ(error_of_lengths({357913944}), "357913944 times 1 values; there can be 357913943 nodes at most");
-  EXPECT_EQ(error_of_lengths({20000, 20000}),
-            "20000 times 20000 values; there can be 357913943 nodes at most");
-  EXPECT_EQ(error_of_lengths({std::size_t{1} << 32, std::size_t{1} << 32}),
-            "4294967296 times 1 values; there can be 357913943 nodes at most");
-  std::remove(name.c_str());
 }
 
 /// Writes 20 nodes in a format of NetCDF; returns the bytes of the file.
@@ -456,15 +354,6 @@ TEST(netcdf, columns_are_the_variables_of_the_nodes) {
       EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
     }
   }
-}
-
-TEST(netcdf, units_that_are_missing_may_be_said) {
-  NetcdfFile file;
-  const int n = file.dimension("n", 2);
-  file.with("lon", {n}, {0, 90}).with("lat", {n}, {90, 0});
-  ReadOptions options;
-  options.units = Units::degrees;
-  EXPECT_EQ(read(file.closed(), options).points, (Points{{0, 0, 1}, {0, 1, 0}}));
 }
 
 }  // namespace

@@ -128,6 +128,7 @@ def made(tmp_path, cdl):
 
 
 PLACES = """double lon(n); lon:units="degrees_east"; double lat(n); lat:units="degrees_north"; """
+BARE = "double lon(n), lat(n);"
 PLACES_DATA = "lon=0,10,20; lat=0,20,10; "
 MESH = """dimensions: n=4; f=2; four=4; three=3; variables: int line; line:cf_role="mesh_topology";
   line:topology_dimension=1; line:node_coordinates="bx by"; double bx(f); bx:units="degrees_east"; double by(f);
@@ -162,6 +163,8 @@ def test_faces_of_more_than_three_corners_are_told(tmp_path):
      "clon=0,1,2; clat=0,1,-1;", [], "angles of a rotated pole"),
     ('double rlon(n); rlon:standard_name="grid_longitude"; rlon:units="degrees"; double rlat(n); rlat:units="degrees"; '
      'rlat:standard_name="grid_latitude";', "rlon=1,2,3; rlat=4,5,7;", ["--columns", "rlon,rlat"], "3,7"),
+    ('double rlon(n); rlon:standard_name="grid_longitude"; rlon:units="degrees"; double rlat(n); rlat:units="degrees"; '
+     'rlat:standard_name="grid_latitude";', "rlon=1,2,3; rlat=4,5,7;", [], "rlon, rlat: angles of a rotated pole"),
     # CICE: the pair of the wanted variable, else ask.
     ('float TLON(n); TLON:units="degrees_east"; float TLAT(n); TLAT:units="degrees_north"; float ULON(n); '
      'ULON:units="degrees_east"; float ULAT(n); ULAT:units="degrees_north";', "", [], "name two of them by --columns"),
@@ -169,6 +172,22 @@ def test_faces_of_more_than_three_corners_are_told(tmp_path):
     ('double a(n); a:units="Degrees East"; double b(n); b:units="degree_N";', "a=1,2,3; b=4,5,6;", [], "3,6"),
     ('double lon(n); lon:units="degrees_west"; double lat(n); lat:units="degrees_north";', PLACES_DATA, [],
      "units 'degrees_west'"),
+    (BARE, "lon=0,180,3; lat=-90,30,1;", [], "180,30\n"),  # no radians
+    (BARE, "lon=1,2,3; lat=1,2,1;", [], "variable lon: units ''; expected degrees or radians"),
+    (BARE, "lon=1,2,3; lat=1,2,1;", ["--units", "degrees"], "1,1\n2,2\n3,1\n"),
+    ('double lon(n); lon:units="radian"; double lat(n); lat:units="degrees_north";', "lon=0,1,2; lat=0,50,-3;", [],
+     "57.29577951308232,50\n"),
+    # Nodes that are none.
+    ("double depth(n);", "", [], "expected variables xCell"),
+    ("double lon(n);", "", [], "there is no variable of latitudes beside lon"),
+    (PLACES, "lon=1,2,3; lat=1,91,2;", [], "variable lat, value 2: 91 is beyond the pole"),
+    (PLACES, "lon=1,_,3; lat=1,2,3;", [], "variable lon, value 2: missing or not finite: remove the node, or say"),
+    (BARE.replace("lat(n)", "lat(n, n)"), f"lon=1,2,3; lat={'4,' * 8}4;", ["--units", "degrees"], "expected one shape"),
+    ("double xCell(n), yCell(n), zCell(one);", "xCell=1,2,3; yCell=1,2,3; zCell=1;", [], "expected one shape"),
+    (PLACES + 'double a(n); a:units="degrees_east"; double b(n); b:units="degrees_north";', PLACES_DATA + "a=1,2,3; b=4,5,6;",
+     ["--columns", "b,a"], "variable b holds latitudes: give the longitudes first, --columns LON,LAT"),
+    ("double XLONG(time,n,time), XLAT(time,n,time);", f"XLONG={'0,' * 11}0; XLAT={'0,' * 11}0;", [],
+     "variable XLONG(time=2, n=3, time=2): expected one place per node; take one time out, say by ncks -d time,0"),
     # Layers and times.
     (PLACES + "float pr(n, time);", PLACES_DATA, ["--columns", "lon,lat,pr"], "ncks -d time,0"),
     (PLACES + "float pr(time, n);", PLACES_DATA, ["--columns", "lon,lat,pr"], "ncks -d time,0"),
@@ -186,3 +205,14 @@ def test_variables_are_what_their_attributes_say(tmp_path, variables, data, opti
     head, inner = (variables, "") if groups < 0 else (variables[:groups], variables[groups:])
     file = made(tmp_path, f"dimensions: n=3; time=2; one=1; one2=1; none=UNLIMITED; variables: {head} data: {data} {inner}")
     assert words in convert(file, *options)
+
+
+@pytest.mark.parametrize("lengths, words", [
+    ((357913944,), "357913944 times 1"), ((20000, 20000), "20000 times 20000"), ((2**32, 2**32), "4294967296 times 1")])
+def test_what_a_header_announces_is_bounded(tmp_path, lengths, words):
+    name = str(tmp_path / "x.nc")
+    with netCDF4.Dataset(name, "w") as file:
+        dimensions = [file.createDimension(f"n{k}", length).name for k, length in enumerate(lengths)]
+        for axis in "lon", "lat":
+            file.createVariable(axis, "f8", dimensions, chunksizes=[100] * len(lengths), fill_value=False)
+    assert words + " values; there can be 357913943 nodes at most" in convert(name)

@@ -107,12 +107,6 @@ TEST(text, other_radians_are_what_they_are) {
   }
 }
 
-TEST(angles, of_longitude_and_latitude_may_have_different_units) {
-  const double lon[] = {90, 180}, lat[] = {0, std::acos(0.0)};
-  EXPECT_EQ(points_of({lon, lat, 1, true, false}, 2), (Points{{0, 1, 0}, {0, 0, 1}}));
-  EXPECT_EQ(points_of({lat, lon, 1, false, true}, 1), (Points{{0, 0, 1}}));
-}
-
 TEST(text, latitudes_beyond_the_pole_are_refused_with_line_and_remedy) {
   expect_error("0 0\n45 170\n",
                "node 2 (line 2): latitude 170 is beyond the pole: the columns are 'lon lat'");
@@ -357,22 +351,6 @@ TEST(tables, that_cannot_be_used_are_refused_with_line_reason_and_remedy) {
   refused(std::string("\xFF\xFE") + "1\0 \0", ":1: UTF-16: save the file as UTF-8");
   expect_error("3.1 1.5\n-3 -1.5\n", "latitudes 1.5, as radians do)");
   expect_error("350 1\n", "more than two turns in radians; --units degrees?", kRadians);
-}
-
-TEST(tables, are_the_same_read_by_any_number_of_threads) {
-  std::string text = "lon,lat,name,n\n";
-  for (int i = 0; i < 40000; ++i)
-    text += fmt::format("{},{},n{},{}\n", i * 0.0090001, i * 0.002 - 40, i, i % 7 == 0 ? "" : "5");
-  const Nodes nodes = read_bytes(text, with_columns());
-  ASSERT_EQ(nodes.points.size(), 40000u);
-  for (std::size_t i : {0u, 19999u, 20000u, 39999u}) {
-    EXPECT_EQ(nodes.lines[i], i + 2);
-    EXPECT_EQ(nodes.given.lon[i], static_cast<double>(i) * 0.0090001);
-    EXPECT_EQ(nodes.columns.at(0).texts[i], fmt::format("n{}", i));
-  }
-  EXPECT_EQ(
-      error_of(text + "1,2,3\n", with_columns()).substr(error_of(text + "1,2,3\n", with_columns()).find(':')),
-      ":40002: found 3 columns where the header has 4: complete the row, or remove it");
 }
 
 TEST(nodes, are_kept_with_all_that_belongs_to_them) {

@@ -162,7 +162,7 @@ TEST(parts, of_a_grid_are_refused) {
   const std::string name = folder.path() + "/grid.nc";
   OutputFile file(name);
   const Grid grid{{0, 90, 180, 270}, {-45, 0, 45}};
-  write_netcdf_grid(file, grid, {{"value", "", "", std::vector<double>(12, 1)}, {}, {}});
+  write_netcdf_field(file, {}, grid, {{"value", "", "", std::vector<double>(12, 1)}, {}, {}});
   file.commit();
   ReadOptions options;
   EXPECT_EQ(read(name, options).points.size(), 12u);

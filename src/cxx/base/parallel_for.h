@@ -71,6 +71,14 @@ void parallel_pieces(std::size_t n, int threads, const Body& body) {
 #endif
 }
 
+/// Calls body(i) for i = 0, ..., n-1, on threads: threads_for(items).
+template <class Body>
+void parallel_for(std::size_t n, std::size_t items, const Body& body) {
+  parallel_pieces(n, threads_for(items), [&](std::size_t first, std::size_t last, int) {
+    for (std::size_t i = first; i < last; ++i) body(i);
+  });
+}
+
 /// Carries exceptions out of the loops above, whose bodies must not throw: one place for each piece, or part
 /// of one.
 class ErrorsOfThreads {
