@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <memory>
 #include <stdexcept>
 
 #ifdef BENCHMARK_WITH_CGAL
@@ -56,18 +55,6 @@ Stripack stripack(Trmesh trmesh, Trlist trlist, Crlist crlist) {
 }
 
 }  // namespace
-
-void first_call(const Nodes& nodes) {
-  const int n = nodes.n();
-  const std::size_t size = 6 * std::size_t(n) - 12;
-  const std::unique_ptr<int[]> list(new int[size]), lptr(new int[size]), lend(new int[nodes.all.size()]);
-  std::vector<int> near(nodes.all.size()), next(near);
-  std::vector<double> dist(near.size());
-  int lnew, ier;
-  trmesh_(&n, nodes.x.data(), nodes.y.data(), nodes.z.data(), list.get(), lptr.get(), lend.get(), &lnew,
-          near.data(), next.data(), dist.data(), &ier);
-  if (ier != 0) throw std::runtime_error(fmt::format("TRMESH returned IER = {}", ier));
-}
 
 Stripack ours() { return stripack(&trmesh_, &trlist_, &crlist_); }
 

@@ -36,8 +36,6 @@ struct Stripack {
 };
 
 Stripack ours();
-/// TRMESH of ours with lists that the system gives their memory while they are written, as after ALLOCATE.
-void first_call(const Nodes& nodes);
 Stripack original(const legacy_stripack::Library& library);
 /// A library that triangulates without writing lists.
 struct Witness {

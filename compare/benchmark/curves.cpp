@@ -18,8 +18,6 @@ namespace {
 
 using legacy_stripack::Outcome;
 
-const std::string kFirst = "pstripack-first";  // runs only if named
-
 /// A set of nodes, and how often one measurement triangulates it.
 struct Task {
   Task(const std::string& points_, const std::string& order_, int wanted)
@@ -48,13 +46,6 @@ Contender stripack_contender(const std::string& name, double bytes_a_node, const
                   return seconds_a_call([&] { library.trmesh(task.nodes, lists); }, task.calls);
                 },
                 time_limit);
-          }};
-}
-
-/// The first call of a process.
-Contender first_contender(const std::string& name, double bytes_a_node) {
-  return {name, 1, bytes_a_node, [](const Task& task, double time_limit) {
-            return measure([&] { return seconds_of([&] { first_call(task.nodes); }); }, time_limit);
           }};
 }
 
@@ -127,10 +118,8 @@ std::vector<Contender> contenders(const std::string& self, const std::vector<std
     all.push_back(stripack_contender("original", 150, original(original_library->library())));
   if (cgal.seconds != nullptr) all.push_back(witness_contender("cgal", 300, cgal));
   if (qhull.seconds != nullptr) all.push_back(witness_contender("qhull", 650, qhull));
-  all.push_back(first_contender(kFirst, 350));
   const auto is_unwanted = [&](const Contender& c) {
-    return wanted.empty() ? c.name == kFirst
-                          : std::find(wanted.begin(), wanted.end(), c.name) == wanted.end();
+    return !wanted.empty() && std::find(wanted.begin(), wanted.end(), c.name) == wanted.end();
   };
   all.erase(std::remove_if(all.begin(), all.end(), is_unwanted), all.end());
   return all;
@@ -161,8 +150,7 @@ void run_order(const std::string& order, const CurveSettings& settings, std::vec
 }  // namespace
 
 const std::vector<std::string>& contender_names() {
-  static const std::vector<std::string> names{"pstripack", "pstripack-threads", "original", "cgal", "qhull",
-                                              kFirst};
+  static const std::vector<std::string> names{"pstripack", "pstripack-threads", "original", "cgal", "qhull"};
   return names;
 }
 

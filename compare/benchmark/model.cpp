@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <thread>
@@ -56,6 +57,23 @@ double seconds_of_scvt(const Model& model) {
   });
 }
 
+ModelFigures first_call(const Model& model) {
+  std::vector<double> x, y, z;
+  for (std::vector<double>* const v : {&x, &y, &z}) v->reserve(static_cast<std::size_t>(model.n));
+  for (const pstripack::Point& p :
+       nodes_in_order(model.points, static_cast<std::size_t>(model.n), model.order))
+    x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
+  const auto array = [](std::size_t n) { return std::unique_ptr<int[]>(new int[n]); };
+  const std::size_t slots = 6 * x.size() - 12;
+  const auto list = array(slots), lptr = array(slots), lend = array(x.size());
+  int lnew, ier = 0;
+  const double seconds = seconds_of([&] {
+    ier = pstripack_trmesh(model.n, x.data(), y.data(), z.data(), list.get(), lptr.get(), lend.get(), &lnew);
+  });
+  if (ier != 0) throw std::runtime_error(fmt::format("TRMESH returned IER = {}", ier));
+  return {seconds, bytes_in("/proc/self/status", "VmHWM:") / model.n};
+}
+
 /// The median of all but the first call, for which the system clears pages.
 double median_of_calls(const Model& model) {
   const Nodes nodes(nodes_in_order(model.points, static_cast<std::size_t>(model.n), model.order));
@@ -81,6 +99,11 @@ double median_of_calls(const Model& model) {
 }  // namespace
 
 int be_the_model(const Model& model) {
+  if (model.work == Work::first) {
+    const ModelFigures first = first_call(model);
+    fmt::print("{} {}\n", first.seconds, first.peak);
+    return 0;
+  }
   if (model.work != Work::trmesh) {
     const bool is_scvt = model.work == Work::scvt || model.work == Work::widths;
     fmt::print("{} 0\n", is_scvt ? seconds_of_scvt(model) : median_of_calls(model));

@@ -6,9 +6,10 @@
 
 namespace benchmark {
 
-/// What a call of the model does: triangulates, reads a mesh, or makes a centroidal one, of one width or of
-/// 60 to 30 km.
-enum class Work { trmesh, trlist, crlist, scvt, widths };
+/// What a call of the model does: triangulates; the same as the first call of a process, for lists that the
+/// system gives their memory while they are written, as after ALLOCATE; reads a mesh; makes a centroidal one,
+/// of one width or of 60 to 30 km.
+enum class Work { trmesh, first, trlist, crlist, scvt, widths };
 
 struct Model {
   std::string points = "random", order = "given";
@@ -18,7 +19,8 @@ struct Model {
 };
 
 struct ModelFigures {
-  double seconds = 0, peak = 0;  ///< seconds per call; peak memory of the first call in bytes per node
+  double seconds = 0, peak = 0;  ///< seconds per call; peak memory of the first call in bytes per node,
+                                 ///< beside the arrays of the call; Work::first: with them
 };
 
 /// Runs this program as the model. Returns the exit code.

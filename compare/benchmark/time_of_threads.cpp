@@ -124,6 +124,32 @@ void run_scaling_of_threads(const std::string& self, int repeats) {
   print("scvt, 60 to 30 km", 320000, 1, of(Work::widths));
 }
 
+void run_time_of_first_calls(const std::string& self, const std::vector<int>& sizes, int repeats) {
+  fmt::print(
+      "\nthe first call of TRMESH in a process, random nodes: milliseconds; peak of the process, bytes a "
+      "node\n\n"
+      "{:>10} {:>10} {:>8} {:>10} {:>8} {:>14}\n",
+      "N", "1 thread", "peak", "default", "peak", "later, 1 thread");
+  for (const int n : sizes) {
+    Samples one, all, later;
+    double peak_of_one = 0, peak_of_all = 0;
+    while (!one.enough(repeats)) {
+      const ModelFigures by_one = as_model(self, "OMP_NUM_THREADS=1", {"random", "given", n, 1, Work::first}),
+                         by_all =
+                             as_model(self, "env -u OMP_NUM_THREADS", {"random", "given", n, 1, Work::first});
+      one.add(by_one.seconds), all.add(by_all.seconds);
+      peak_of_one = by_one.peak, peak_of_all = by_all.peak;
+      if (n <= 10000000)  // more would not fit beside the arrays of this program
+        later.add(as_model(self, "OMP_NUM_THREADS=1", {"random", "given", n, std::clamp(1000000 / n, 1, 100)})
+                      .seconds);
+    }
+    fmt::print("{:>10} {:>10.2f} {:>8.0f} {:>10.2f} {:>8.0f} {:>14}\n", n, 1e3 * one.median(), peak_of_one,
+               1e3 * all.median(), peak_of_all,
+               later.empty() ? "-" : fmt::format("{:.2f}", 1e3 * later.median()));
+    std::fflush(stdout);
+  }
+}
+
 void run_time_of_threads(const std::string& self, int repeats) {
   print_head("TRMESH, other random nodes in each call, 20 ms between the calls");
   for (const int n : {20000, 40962, 100000, 163842, 655362, 1000000}) {

@@ -2,6 +2,7 @@
 // What threads cost and gain where the user sets nothing.
 
 #include <string>
+#include <vector>
 
 namespace benchmark {
 
@@ -11,6 +12,9 @@ void run_time_of_threads(const std::string& self, int repeats);
 
 /// Writes a table: the same where other ranks or programs need the processors, without a pause.
 void run_time_of_threads_on_busy_machine(const std::string& self, int repeats);
+
+/// Writes a table: the first call of a process, which the system has to give memory.
+void run_time_of_first_calls(const std::string& self, const std::vector<int>& sizes, int repeats);
 
 /// Writes a table: triad of STREAM, TRMESH, TRLIST, CRLIST and centroidal meshes on 1, 2, 4, ... and all
 /// processors.

@@ -83,7 +83,7 @@ bool free_cached_blocks() noexcept {
   return free_idle_blocks() || any;
 }
 
-Block::Block(std::size_t bytes) {
+Block::Block(std::size_t bytes, std::size_t freed) {
   if (bytes >= kSmallest) bytes = rounded_up(bytes);
   if (bytes >= kSmallest && bytes <= most_cached()) {
     if (const std::unique_lock lock(mutex, std::try_to_lock); lock) {
@@ -102,7 +102,7 @@ Block::Block(std::size_t bytes) {
   }
   // The system promises more memory than there is, and kills the process where a page is missing later.
   constexpr std::size_t kWorthAsking = std::size_t{1} << 30;
-  const auto fits = [&] { return bytes < kWorthAsking || bytes <= available_memory(); };
+  const auto fits = [&] { return bytes < kWorthAsking + freed || bytes - freed <= available_memory(); };
   if (!fits() && (!free_cached_blocks() || !fits())) throw std::bad_alloc();
   try {
     memory_ = Buffer<unsigned char>(bytes);

@@ -20,8 +20,8 @@ class Block {
  public:
   Block() = default;
   /// Allocates at least `bytes`. Throws std::bad_alloc if there is no memory even after the cached blocks are
-  /// freed.
-  explicit Block(std::size_t bytes);
+  /// freed. `freed`: so many bytes of others are freed before the whole block is used.
+  explicit Block(std::size_t bytes, std::size_t freed = 0);
   Block(Block&& other) noexcept = default;
   Block& operator=(Block&& other) noexcept {
     std::swap(memory_, other.memory_);

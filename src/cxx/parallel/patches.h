@@ -53,7 +53,7 @@ Patches<Int> triangulate_patches(Delivery& delivery, const Division& division, C
       begin.push_back(begin.back() +
                       (patch.workspace_bytes(division.closing.size()) + kPage - 1) / kPage * kPage);
     }
-    patches.memory = Block(begin.back());
+    patches.memory = Block(begin.back(), delivery.nodes.size() * sizeof(SentNode));
     patches.for_each(threads, [&](Patch<Int>& patch, PatchHere k) {
       Workspace part(patches.memory.data() + begin[k], begin[k + 1] - begin[k]);
       patch.set_up(division.closing, part);
