@@ -118,7 +118,7 @@ Quality quality_of(const files::Mesh& mesh) {
   std::vector<std::int64_t> numbers(n);
   std::iota(numbers.begin(), numbers.end(), std::int64_t{1});
   pstripack::SingleProcess alone;
-  const pstripack::Halo no_halo;
+  const pstripack::Halo no_halo{};
   return quality_of_kept(
       alone, {mesh.points.data(), numbers.data(), {n, mesh.lend.data(), mesh.list.data()}, n, &no_halo},
       [&](std::size_t i) { return mesh.layers.empty() || mesh.layers[i] != files::kLeftOut; });

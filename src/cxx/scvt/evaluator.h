@@ -72,7 +72,7 @@ class LocalEvaluator : public Evaluator {
 
  private:
   SingleProcess alone_;
-  const Halo no_halo_;
+  const Halo no_halo_{};
   std::vector<std::int64_t> numbers_;
   std::vector<std::int32_t> list_, lptr_, lend_;
 };
