@@ -12,8 +12,6 @@
 #include "measuring.h"
 #include "model.h"
 #include "orders.h"
-#include "point_sets.h"
-#include "pstripack.h"
 #include "time_of_distributions.h"
 #include "time_of_queries.h"
 #include "time_of_scvt.h"
@@ -210,9 +208,9 @@ std::vector<std::string> case_names() {
 
 void run_cases(const std::string& self, const CaseSettings& settings,
                const std::optional<legacy_stripack::Original>& original_library) {
-  const auto& [quick, only, sets, repeats] = settings;
-  const auto is_named = [&names = only](const std::string& name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
+  const std::vector<std::string>& only = settings.only;
+  const auto is_named = [&](const std::string& name) {
+    return std::find(only.begin(), only.end(), name) != only.end();
   };
   std::size_t tables = 0;
   for (const Table& t : kTables)
@@ -224,12 +222,12 @@ void run_cases(const std::string& self, const CaseSettings& settings,
   fmt::print("{:<17} {:>8} {:>9} {:>9} {:>9} {:>9} {:>15} {:>11} {:>12} {:>9}\n", "case", "N", "ours",
              "original", "CGAL", "Qhull", "", "", "", "bytes/N");
   const auto is_chosen = [&](const std::string& name, int n) {
-    return only.empty() ? !quick || n < 1000000 : is_named(name);
+    return only.empty() ? !settings.quick || n < 1000000 : is_named(name);
   };
   for (const Case& c : kCases) {
     if (!is_chosen(c.name, c.n)) continue;
     try {
-      run(c, self, original_library, repeats);
+      run(c, self, original_library, settings.repeats);
     } catch (const std::exception& e) {
       fmt::print("{:<17} {}\n", c.name, e.what());
     }
