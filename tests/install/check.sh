@@ -1,6 +1,7 @@
 #!/bin/sh
 # Programs for the Fortran 90 text link with libstripack_f90 before the library. `pstripack-config --check` tells whose
-# TRMESH a program or process calls, linked in every right and wrong way; an old library is made here.
+# TRMESH a program or process calls, linked in every right and wrong way; an old library is made here. `--which` tells
+# which library an object file needs.
 # Usage: check.sh PREFIX CONSUMER_DIR WORK_DIR
 # shellcheck disable=SC2046,SC2086  # lists of words on purpose
 set -eu
@@ -248,4 +249,48 @@ refused "takes a program, or the number of a process, and nothing else" --check
 refused "takes a program, or the number of a process, and nothing else" --check right wrong
 answers 1 "" "$config" --check host
 grep -q 'calls none of them' "$work/errors" || fail "a program that calls none of them"
-echo "pstripack-config --check: all answers are right"
+
+# Which library an object file needs: with debug information always told, without it told rightly or not at all.
+# which ABI ARGUMENTS KIND FLAGS...
+which() {
+  abi=$1 arguments=$2 kind=$3
+  shift 3
+  cat > which.f << TEXT
+      SUBROUTINE MODEL(N, X, Y, Z, LIST, LPTR, LEND, NEAR, NEXT, D)
+      INTEGER N, LIST(*), LPTR(*), LEND(*), NEAR(*), NEXT(*)
+      INTEGER LNEW, IER, I
+      $kind X(*), Y(*), Z(*), D(*)
+      CALL TRMESH($arguments)
+      IF (IER .NE. 0) CALL TIMESTAMP
+      DO 10 I = 1, N
+        D(1) = D(1) + X(LIST(I))*Y(LPTR(I))
+ 10   CONTINUE
+      END
+TEXT
+  for flags in "-O0 -g" "-O2 -g" -O0 -O2; do
+    gfortran $flags "$@" -c which.f
+    status=0
+    "$config" --which which.o > "$work/answer" || status=$?
+    case "$status $flags $(tail -n 1 "$work/answer")" in
+      "0 "*"Link it with: \$(pstripack-config --abi f90,$abi --libs)") ;;
+      "1 -O"?" Which library, these do not tell"*) ;;
+      *) cat "$work/answer"; fail "--which: expected $abi with $flags $*" ;;
+    esac
+  done
+}
+twelve="N,X,Y,Z,LIST,LPTR,LEND,LNEW,NEAR,NEXT,D,IER"
+which r8 $twelve REAL*8
+which r8 $twelve REAL -fdefault-real-8
+which r4 $twelve REAL
+which 8arg N,X,Y,Z,LIST,LPTR,LEND,IER REAL*8
+which i8 $twelve REAL*8 -fdefault-integer-8
+sed -i 's/REAL\*8/REAL*4/' which.f && gfortran -g -fdefault-integer-8 -c which.f
+answers 1 "$("$config" --which which.o | tr '\n' ';')" "$config" --which which.o
+grep -q 'no library for this combination' "$work/answer" || fail "--which: real(4) with 64-bit integers"
+ar rc libwhich.a which.o old.o
+"$config" --which libwhich.a | grep -q '^libwhich.a contains a STRIPACK' || fail "--which: an archive with a STRIPACK"
+refused "does not call TRMESH" --which host
+refused "no such file" --which "$work/nowhere"
+refused "not an object file" --which script
+refused "takes an object file, archive or program, and nothing else" --which
+echo "pstripack-config --check, --which: all answers are right"

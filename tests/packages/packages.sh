@@ -48,7 +48,7 @@ for abi in r8 r4 8arg i8; do
   has "libpstripack$soname" libgfortran mpi "$lib/pstripack/switch/$abi/libstripack.so"
 done
 has libpstripack-dev "libpstripack$soname" mpi include/pstripack.h include/pstripack/stripack/stripack.mod \
-  "$lib/libstripack_f90.a" "$lib/pkgconfig/stripack_f90.pc" share/pstripack/which_trmesh.sh \
+  "$lib/libstripack_f90.a" "$lib/pkgconfig/stripack_f90.pc" share/pstripack/which_trmesh.sh share/pstripack/which_library.sh \
   share/pstripack/stripack_module.F90 "$lib/cmake/pstripack/pstripackConfig.cmake" bin/pstripack-config \
   share/man/man3/trmesh.3.gz share/man/man1/pstripack-config.1.gz
 if grep -q '^PSTRIPACK_WITH_MPI:BOOL=ON' "$build/CMakeCache.txt"; then
