@@ -189,7 +189,7 @@ INDEX_HEAD = """# STRIPACK's routines
 
 One page per routine, also installed as a man page (`man 3 trmesh`). Old Fortran codes call these symbols without
 interfaces; `use stripack` provides interfaces. Reals, integers and logicals have the kinds of [the
-library](../relink.md#2-which-library).
+library](../relink.md#1-your-line).
 
 Unless a page says otherwise:
 
