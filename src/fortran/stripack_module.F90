@@ -199,7 +199,7 @@ module stripack
 
     ! Optimises a set of arcs.
     ! Replaces arcs in IWK by the other diagonal of their quadrilateral where the circumcircle test requires
-    ! it, in passes until one makes no swap, and updates IWK. Skips boundary arcs.
+    ! it, and updates IWK. Passes follow each other until one makes no swap. Boundary arcs are skipped.
     ! OPTIM is told neither N nor the lengths of the arrays. With broken lists it reads outside LIST and LPTR
     ! if LEND or LPTR is above 6N-12. It uses a node number above all in IWK only if the lists of both ends of
     ! an arc agree on it; if both are wrong, it also reads outside X, Y, Z and LEND.
