@@ -105,7 +105,7 @@ def add_search(pages, html):
     sections = [(f"{label(path)}.html#{label(path, anchor)}" if number else f"{label(path)}.html",
                  heading if not number else f"{page.title}: {heading}", plain(text))
                 for path, page in pages.items() for number, (heading, anchor, text) in enumerate(page.sections())]
-    sections += [(path.replace(".", "_8") + ".html", path, plain((ROOT / folder / path).read_text()))
+    sections += [(path.replace("_", "__").replace(".", "_8") + ".html", path, plain((ROOT / folder / path).read_text()))
                  for folder, path in (each.rsplit("/", 1) for each in INTERFACES)]
     text = json.dumps([(address.replace("mainpage.html", "index.html"), *rest) for address, *rest in sections])
     box = '<form action="search.html"><input type="search" name="q" placeholder="Search" aria-label="words to find"></form>'
