@@ -136,8 +136,8 @@ void CallReader::begin(const BlockHeader& header) {
 Call CallReader::end(const BlockHeader& header) {
   auto found = under_way_.extract({header.process, header.call});
   if (!found)
-    fail(block_, fmt::format("the result of call {} of process {}, of which the file has no beginning",
-                             header.call, header.process_id));
+    fail(block_, fmt::format("call {} of process {}: the file has its result, not its beginning", header.call,
+                             header.process_id));
   Call call = std::move(found.mapped());
   const auto expect = [&](bool holds, std::size_t at, const std::string& what) {
     if (!holds) fail(block_ + at, "expected " + what);

@@ -70,8 +70,8 @@ Result compare(const std::vector<Point>& points, legacy_stripack::Triangulation 
     result.broken_promises.push_back(std::move(line));
   for (const OurRun& other : result.ours)
     if (returned(other) && !same_bytes(first, other))
-      result.broken_promises.push_back(fmt::format("the result on {} is not, byte for byte, that on {}",
-                                                   describe(other), describe(first)));
+      result.broken_promises.push_back(
+          fmt::format("the result on {} has other bytes than that on {}", describe(other), describe(first)));
 
   if (!result.original_returned()) return result;
   result.original_checked = check(result.original.ier, result.original, {});

@@ -19,8 +19,8 @@ std::string validity(const Checked& checked) {
 
 std::string validity_of_original(const Result& result) {
   if (!only_ties_and_rounding(result)) return validity(result.original_checked);
-  return result.differences.of(Cause::rounding).places > 0 ? "valid but for its rounding"
-                                                           : "valid but for the tie rule";
+  return result.differences.of(Cause::rounding).places > 0 ? "valid up to its rounding"
+                                                           : "valid up to the tie rule";
 }
 
 void print_table(const Result& result, double timeout) {

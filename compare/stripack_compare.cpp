@@ -157,7 +157,7 @@ void add_lists(CLI::App& app, comparison::ListsOptions& options, Command& chosen
 
 exit code
   0  every call has the same triangles in both files (--bytes: the same bytes)
-  1  not so
+  1  they differ
   2  usage error or unreadable input)");
   lists->add_option("A", options.a, "file")->required();
   lists->add_option("B", options.b, "file")->required();
@@ -194,7 +194,7 @@ exit code
       ->excludes("--original");
   replay
       ->add_option("--timeout", options.timeout,
-                   "processor seconds after which the original is stopped, each call")
+                   "processor seconds of each call after which the original is stopped")
       ->check(number_in(1e-6, 1e9))
       ->capture_default_str();
   replay->add_option("--show", options.show, "largest number of differences of each kind printed per call")

@@ -170,8 +170,7 @@ TEST(recorded_calls, that_are_malformed_are_refused_with_the_byte_and_what_was_e
   EXPECT_EQ(changed([](auto& h) { h.integer_bytes = 2; }), "byte 28: expected integers of 4 bytes, found 2");
   EXPECT_EQ(changed([](auto& h) { h.n = 4; }), "byte 96: expected a body of 96 bytes, found 72");
   EXPECT_EQ(changed([](auto& h) { h.n = 2; }), "byte 96: expected a body of 0 bytes, found 72");
-  EXPECT_EQ(error(output()),
-            "byte 0: the result of call 1 of process 1234, of which the file has no beginning");
+  EXPECT_EQ(error(output()), "byte 0: call 1 of process 1234: the file has its result, not its beginning");
   EXPECT_EQ(error(input() + input()), "byte 176: call 1 of process 1234 begins a second time");
 
   const auto output_changed = [](auto change) {

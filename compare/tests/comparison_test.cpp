@@ -58,7 +58,7 @@ TEST_F(Comparison, CountsOtherBytesAgainstUs) {
   EXPECT_TRUE(result.against_us());
   ASSERT_EQ(result.broken_promises.size(), 1u);
   EXPECT_EQ(result.broken_promises[0],
-            "the result on r8, 2 threads, 1 rank, bisection is not, byte for byte, that on r8, 1 thread, 1 "
+            "the result on r8, 2 threads, 1 rank, bisection has other bytes than that on r8, 1 thread, 1 "
             "rank, bisection");
 }
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Makes, from the table of routines in docs/api/routines/*.toml:
 
-  docs/api/*.md                     a page per routine, README.md, the index by task, and ier.md, all codes
+  docs/api/*.md                     a page per routine, README.md, the index by task, ier.md, all codes, and python.md,
+                                    the reference of the Python package
   docs/man/man3/*.3                 the same as man pages
   src/fortran/stripack_module.F90   their interfaces, from stripack_module.F90.in
   src/fortran/plain_forwarders.h    those of its routines that only call their C function: all that
@@ -26,6 +27,8 @@ import sys
 import textwrap
 import tomllib
 from pathlib import Path
+
+from python_page import python_page
 
 ROOT = Path(__file__).resolve().parents[2]
 LIBRARIES = ["stripack", "stripack_r4", "stripack_8arg", "stripack_i8"]
@@ -186,7 +189,7 @@ INDEX_HEAD = """# STRIPACK's routines
 
 One page per routine, also installed as a man page (`man 3 trmesh`). Old Fortran codes call these symbols without
 interfaces; `use stripack` provides interfaces. Reals, integers and logicals have the kinds of [the
-library](../relink.md#2-which-library).
+library](../relink.md#1-your-line).
 
 Unless a page says otherwise:
 
@@ -613,6 +616,7 @@ def make_all(groups):
     """The files by their path from ROOT."""
     routines = [routine for _, members in groups for routine in members]
     files = {"docs/api/README.md": markdown_index(groups), "docs/api/ier.md": markdown_ier(groups),
+             "docs/api/python.md": python_page(ROOT),
              "src/fortran/stripack_module.F90": module_text(groups),
              "src/fortran/stripack.h.in": c_header(routines), "src/fortran/stripack.pyf": pyf(routines),
              **plain_files(routines)}

@@ -23,6 +23,17 @@ class MarkdownPage:
         same = [other for other in self.anchors if re.fullmatch(rf"{re.escape(anchor)}(-\d+)?", other)]
         return f"{anchor}-{len(same)}" if same else anchor
 
+    @property
+    def title(self):
+        return re.sub(r"[`*]", "", re.search(r"^# (.*)$", self.text, re.MULTILINE)[1])
+
+    def sections(self):
+        """Of each heading: its text, its anchor, and the text below it."""
+        headings = [token for token in TOKEN.finditer(self.text) if token["heading"]]
+        ends = [token.start() for token in headings[1:]] + [len(self.text)]
+        for token, anchor, end in zip(headings, self.anchors, ends):
+            yield re.sub(r"[`*]", "", token["heading"]), anchor, self.text[token.end():end]
+
     def rewritten(self, heading, link):
         """The text with each heading replaced by heading(level, text, anchor), each target by link(target)."""
         anchors = iter(self.anchors)

@@ -103,16 +103,17 @@ module stripack
     ! a common factor: P points at (B1*node I1 + B2*node I2 + B3*node I3)/(B1+B2+B3). B3 = 0 if P lies on the
     ! arc I1-I2.
     ! I3 = 0: P is outside. I1 and I2 are the rightmost and the leftmost boundary node visible from P (looking
-    ! at the triangles); I1 = I2 if all are. I1 = I2 = I3 = 0: not found, because all nodes lie on one great
-    ! circle, or P is zero or NaN. B1, B2, B3 are then undefined.
+    ! at the triangles); I1 = I2 if all boundary nodes are visible. I1 = I2 = I3 = 0: not found, because all
+    ! nodes lie on one great circle, or P is zero or NaN. B1, B2, B3 are then undefined.
     subroutine trfind(nst, p, n, x, y, z, list, lptr, lend, b1, b2, b3, i1, i2, i3)
       integer :: nst, n, list(*), lptr(*), lend(n), i1, i2, i3
       real(STRIPACK_REAL_KIND) :: p(3), x(n), y(n), z(n), b1, b2, b3
     end subroutine
 
     ! Finds the node nearest to a point.
-    ! Returns the nearest node, and its distance in AL. The triangulation must be Delaunay: possibly wrong
-    ! after EDGE or DELARC. Of nodes that are equally near, any.
+    ! Returns the nearest node, and its distance in AL. The triangulation must be Delaunay; after EDGE or
+    ! DELARC it may not be, and the result may be wrong. If several nodes are equally near, the result is any
+    ! of them.
     ! Result  the nearest node; 0 if N < 3 or P is not found, see TRFIND.
     integer function nearnd(p, ist, n, x, y, z, list, lptr, lend, al)
       integer :: ist, n, list(*), lptr(*), lend(n)
@@ -180,13 +181,14 @@ module stripack
     end subroutine
 
     ! Forces an arc between two nodes.
-    ! Swaps arcs that cross IN1-IN2 until it exists, then optimises the new arcs beside it: boundaries of
-    ! regions become arcs. Later calls of ADDNOD, DELNOD or OPTIM may swap it away.
-    ! On success one column of IWK is (0,0), after the new arcs left of IN1-IN2 and before those right of it
-    ! (exchanged if the search had to start from IN2). N columns suffice unless nodes are collinear.
+    ! Swaps arcs that cross IN1-IN2 until this arc exists, then optimises the new arcs beside it. So
+    ! boundaries of regions become arcs. Later calls of ADDNOD, DELNOD or OPTIM may swap the arc away.
+    ! On success IWK has the new arcs left of IN1-IN2, then a column (0,0), then the new arcs right of
+    ! IN1-IN2. Left and right are exchanged if the search had to start from IN2. N columns suffice unless
+    ! nodes are collinear.
     ! EDGE is told neither N nor the lengths of the arrays. With broken lists it reads outside LIST and LPTR
-    ! if LEND or LPTR is above 6N-12, and outside X, Y, Z and LEND if the list of IN1 or IN2 holds a neighbour
-    ! above N. It uses a number above N from another list only if two lists agree on it.
+    ! if LEND or LPTR is above 6N-12. It reads outside X, Y, Z and LEND if the list of IN1 or IN2 holds a
+    ! neighbour above N. It uses a number above N from another list only if two lists agree on it.
     ! IER  0 the arc exists; 1 IN1 < 1, IN2 < 1, IN1 = IN2 or LWK < 0; 2 more than LWK arcs cross IN1-IN2;
     !      3 no crossing arc is found: null triangles or a broken triangulation; a message on standard output;
     !      4 OPTIM failed, also with -13; a message on standard output; 5 OPTIM reached its limit of
@@ -199,7 +201,7 @@ module stripack
 
     ! Optimises a set of arcs.
     ! Replaces arcs in IWK by the other diagonal of their quadrilateral where the circumcircle test requires
-    ! it, in passes until one makes no swap, and updates IWK. Skips boundary arcs.
+    ! it, and updates IWK. Passes follow each other until one makes no swap. Boundary arcs are skipped.
     ! OPTIM is told neither N nor the lengths of the arrays. With broken lists it reads outside LIST and LPTR
     ! if LEND or LPTR is above 6N-12. It uses a node number above all in IWK only if the lists of both ends of
     ! an arc agree on it; if both are wrong, it also reads outside X, Y, Z and LEND.
@@ -220,14 +222,14 @@ module stripack
 
     ! Inserts a node outside the triangles from which part of the boundary is visible.
     ! Connects node KK to the boundary nodes visible from it, clockwise from I1 to I2; those between I1 and I2
-    ! become interior. Arcs are not optimised: ADDNOD does both.
+    ! become interior. Arcs are not optimised: ADDNOD also optimises them.
     subroutine bdyadd(kk, i1, i2, list, lptr, lend, lnew)
       integer :: kk, i1, i2, list(*), lptr(*), lend(kk), lnew
     end subroutine
 
     ! Inserts a node outside the triangles from which the whole boundary is visible.
     ! Connects node KK to all boundary nodes; the triangles then cover the sphere. Arcs are not optimised:
-    ! ADDNOD does both.
+    ! ADDNOD also optimises them.
     subroutine covsph(kk, n0, list, lptr, lend, lnew)
       integer :: kk, n0, list(*), lptr(*), lend(kk), lnew
     end subroutine

@@ -51,6 +51,14 @@ def functions():
             compare(f"docs/man/man3/{page}.3", expected, set(re.findall(r"\w+ \*?(pstripack_\w+)\(", synopsis)))
 
 
+def fortran_calls():
+    """Compares the procedures of type(pstripack_mesh) with its man page and docs/modes.md."""
+    module = read("src/fortran/pstripack_mpi.f90")
+    declared = set(re.findall(r"(?m)^    (?:procedure|generic), public :: (\w+)", module)) - {"assignment"}
+    for document in "docs/man/man3/pstripack_mpi.3", "docs/modes.md":
+        compare(document, declared, set(re.findall(r"mesh%(\w+)\(", read(document))))
+
+
 def environment():
     """Compares the variables PSTRIPACK_* that the engine reads, except PSTRIPACK_POOL*, which is internal."""
     used = {name for path in (ROOT / "src").rglob("*.cpp")
@@ -83,7 +91,7 @@ def commands():
                 problems.extend(f"{page.relative_to(ROOT)}: no {what} {name}" for name in set(found) - known)
 
 
-for check in codes, functions, environment, version, commands:
+for check in codes, functions, fortran_calls, environment, version, commands:
     check()
 print("\n".join(problems) or "as in the sources")
 sys.exit(1 if problems else 0)

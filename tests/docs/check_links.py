@@ -18,8 +18,9 @@ from markdown_page import MarkdownPage  # noqa: E402
 class HtmlPage(html.parser.HTMLParser):
     def __init__(self, path):
         super().__init__()
-        self.anchors, self.links = set(), []
-        self.feed(path.read_text())
+        text = path.read_text()
+        self.anchors, self.links = set(), re.findall(r'\["([^"]+\.html[^"]*)", "', text)  # those that search.html finds
+        self.feed(text)
 
     def handle_starttag(self, tag, attributes):
         for name, value in attributes:

@@ -270,9 +270,10 @@ Mesh mesh_with_boundary(std::vector<Point> points, const pstripack::Triangles& t
   try {
     return mesh_of(std::move(points), triangles);
   } catch (const NoMesh& e) {
-    throw NoMesh(fmt::format(
-        "the boundary of what is kept touches itself ({}): only --to mpas keeps this, or another region",
-        e.what()));
+    throw NoMesh(
+        fmt::format("the boundary of what is kept touches itself ({}): only --to mpas can hold this; or "
+                    "choose another region",
+                    e.what()));
   }
 }
 

@@ -181,9 +181,10 @@ Pair lon_lat_of(const File& file, const std::string& value) {
                           &rotated = candidates.rotated;
   if (lons.empty() && lats.empty()) {
     if (!rotated.empty())
-      file.fail(paths_of(rotated) +
-                ": angles of a rotated pole, not longitudes and latitudes, which `cdo "
-                "setgridtype,curvilinear` adds to the file; if they are not, say --columns LON,LAT");
+      file.fail(
+          paths_of(rotated) +
+          ": angles of a rotated pole: `cdo setgridtype,curvilinear` adds longitudes and latitudes to the "
+          "file; if they are longitudes and latitudes, say --columns LON,LAT");
     if (file.find("nodeCoords") != nullptr && file.find("elementConn") != nullptr)
       file.fail(
           "an ESMF mesh: make a table of its corners, nodeCoords, or of its cells, centerCoords, by `python3 "

@@ -220,9 +220,8 @@ class NetcdfWriter {
     const double bytes = static_cast<double>(longest(c)) * static_cast<double>(c.size());
     if (bytes > 64e6 && bytes > 16 * static_cast<double>(all))
       throw std::runtime_error(
-          fmt::format("{}: column '{}' has a text of {} bytes, as long as which all in a NetCDF file are, "
-                      "{:.0f} MB: leave the "
-                      "column out by --columns, or write CSV or GeoJSON",
+          fmt::format("{}: column '{}' has a text of {} bytes, and NetCDF stores all texts as long as this, "
+                      "{:.0f} MB: leave the column out by --columns, or write CSV or GeoJSON",
                       name_, point_sets::excerpt(c.name), longest(c), bytes / 1e6));
   }
   static std::size_t longest(const Column& texts) {

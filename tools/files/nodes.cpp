@@ -162,7 +162,7 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
       const bool has_value = options.with_values || (options.may_have_value && layout.columns > 2);
       if (has_value && !is_third && layout.columns != 3 && layout.columns != 4)
         fail(fmt::format(
-            "has {} columns; expected 'lon lat value' or 'x y z value'; of more columns say --coordinates "
+            "has {} columns; expected 'lon lat value' or 'x y z value'; with more columns say --coordinates "
             "and --variable, or --columns",
             layout.columns));
       if (!has_value && layout.columns != 2 && layout.columns != 3)

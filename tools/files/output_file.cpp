@@ -57,7 +57,7 @@ void report_leftovers(const fs::path& folder, const std::string& beginning) {
       continue;
     on_leftover()(
         fmt::format("{} is unfinished output of a killed run: process {} does not run on this "
-                    "machine: remove it, unless it runs on another",
+                    "machine: remove the file, unless the process runs on another machine",
                     at->path().string(), process));
   }
 }

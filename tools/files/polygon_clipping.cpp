@@ -462,7 +462,7 @@ class Clipper {
   [[noreturn]] void fail() const {
     throw NoMesh(
         "feature " + std::to_string(feature_) +
-        ": its rings touch, overlap or lie in each other as those of no polygon do: mend the polygon, "
+        ": its rings touch, overlap or lie in each other, which a polygon does not allow: mend the polygon, "
         "say by ogr2ogr -makevalid");
   }
 

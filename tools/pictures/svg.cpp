@@ -46,7 +46,7 @@ std::optional<Kind> kind_of(const std::string& file) {
 
 void expect_converter(Kind kind) {
   if (kind == Kind::png && std::system("rsvg-convert --version > /dev/null 2>&1") != 0)
-    throw std::runtime_error("PNG needs rsvg-convert (Debian: librsvg2-bin); SVG does not");
+    throw std::runtime_error("PNG needs rsvg-convert (Debian: librsvg2-bin); write SVG without it");
 }
 
 void write(const files::OutputFile& file, Kind kind, const std::string& svg) {

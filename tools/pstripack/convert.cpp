@@ -82,7 +82,7 @@ void tell_lost_variables(const files::Nodes& nodes, const std::string& mesh) {
   for (const std::string& name : nodes.variables)
     if (std::find(kept.begin(), kept.end(), name) == kept.end()) lost.push_back(name);
   if (!lost.empty())
-    say(fmt::format("{}: an MPAS mesh has no place for {}: not in {}", nodes.file, files::listed(lost),
+    say(fmt::format("{}: an MPAS mesh has no place for {}, which {} lacks", nodes.file, files::listed(lost),
                     mesh));
 }
 
@@ -107,9 +107,8 @@ void convert(Options& options) {
     format = files::Format::netcdf;
   if (nodes.polygons > 0 && !files::holds_nodes(options.output.format))
     throw std::runtime_error(
-        fmt::format("{}: {} of its faces have more than three corners, which are not divided here: "
-                    "`pstripack triangulate` makes "
-                    "triangles of its nodes, and --to nodes writes these",
+        fmt::format("{}: {} of its faces have more than three corners, which convert does not divide: "
+                    "`pstripack triangulate` makes triangles of the nodes, and --to nodes writes the nodes",
                     nodes.file, nodes.polygons));
   if ((!files::holds_nodes(format) || !options.region.empty()) && !has_mesh)
     throw std::runtime_error(nodes.file + ": holds nodes without triangles: use `pstripack triangulate`");

@@ -165,13 +165,13 @@ void interpolate(Options& options) {
   if (options.points.empty() + options.grid.empty() + (options.step == 0) != 2)
     throw CLI::ValidationError("--to-points", "give one of --to-points, --to-grid, --grid-step");
   if (!options.box.empty() && !options.points.empty())
-    throw CLI::ValidationError("--box", "is of a grid, not of --to-points");
+    throw CLI::ValidationError("--box", "is for a grid, not for --to-points");
   if (options.registration == Registration::node && !options.points.empty())
-    throw CLI::ValidationError("--registration", "is of a grid, not of --to-points");
+    throw CLI::ValidationError("--registration", "is for a grid, not for --to-points");
   const bool has_values = !options.output.empty(), has_weights = !options.weights.empty();
   if (!has_values && !has_weights) throw CLI::RequiredError("--output or --weights");
   if (has_weights && options.input.duplicates == Duplicates::mean)
-    throw CLI::ValidationError("--weights", "are of one node for each place: say --duplicates first");
+    throw CLI::ValidationError("--weights", "need one node for each place: say --duplicates first");
   if (!has_values && options.nearest_node)
     throw CLI::ValidationError("--nearest-node", "is for columns of the output: give --output");
   const To to = has_values ? format_of(options) : To::netcdf;
@@ -265,7 +265,7 @@ void add_interpolate(CLI::App& app, Command& chosen) {
       ->type_name("");
   sub->add_option(
          "--variable", options->input.read.variable,
-         "of the value: its name, or in text its column, from 1 [the only one; in text without a header "
+         "the value: its name, or in text its column, from 1 [the only one; in text without a header "
          "the one after the coordinates]")
       ->type_name("NAME");
   sub->add_option("--to-points", options->points, "file of points")->type_name("FILE");

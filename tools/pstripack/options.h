@@ -88,7 +88,7 @@ void add_output(CLI::App& app, Output& output, bool required);
 std::function<std::string(const std::string&)> number_from(double low, double high, std::string what);
 constexpr double kAbove0 = std::numeric_limits<double>::denorm_min(),
                  kLargest = std::numeric_limits<double>::max();
-constexpr auto kRadiusOfMpas = "of the sphere in an MPAS mesh [that of the input, else 1]";
+constexpr auto kRadiusOfMpas = "radius of the sphere in an MPAS mesh [that of the input, else 1]";
 CLI::Option* add_radius(CLI::App& app, double& radius, const char* text);
 /// --edges, --rings.
 void add_variant(CLI::App& app, Output& output);

@@ -236,13 +236,13 @@ void add_plot(CLI::App& app, Command& chosen) {
       ->type_name("NAME")
       ->check(one_of(palettes));
   sub->add_flag("--dots", options->dots, "also draw the nodes, as dots");
-  sub->add_flag("--coasts", options->coasts, "coast lines: Natural Earth, of Debian's libmagics++-data");
+  sub->add_flag("--coasts", options->coasts, "coast lines of Natural Earth, from Debian's libmagics++-data");
   sub->add_option("--coast-file", options->coast_file, "coast lines of this shapefile instead")
       ->type_name("FILE");
   sub->add_option("--three-file", options->three_file,
                   "three.js for a globe [PSTRIPACK_THREE, or that of Debian's libjs-three]")
       ->type_name("FILE");
-  sub->add_option("--title", options->title, "[file and counts]")->type_name("TEXT");
+  sub->add_option("--title", options->title, "title of the picture [file and counts]")->type_name("TEXT");
   sub->add_option("--width", options->width, fmt::format("width of the picture [{}]", kWidth))
       ->type_name("PIXELS")
       ->check(number_from(100, 20000, "a number from 100 to 20000"));

@@ -476,7 +476,7 @@ void suggest_levels(const Options& options) {
   std::size_t power = 1;
   for (; 10 * power + 2 < options.n; ++k) power *= 4;
   if (10 * power + 2 == options.n)
-    say(fmt::format("N = 10 4^{} + 2: with --first levels all cells but 12 pentagons are hexagons", k));
+    say(fmt::format("N = 10 4^{} + 2: with --first levels all cells are hexagons, except 12 pentagons", k));
 }
 
 /// The generators of a new run, those of the last level if there are levels. Collective.
@@ -627,7 +627,7 @@ files::Nodes read_start(Communicator& ranks, const Options& options) {
     }
     if (input.drops() || input.within.radians > 0)
       throw std::runtime_error(
-          fmt::format("--duplicates, --duplicates-within: several ranks cannot: "
+          fmt::format("--duplicates, --duplicates-within: several ranks cannot join nodes: "
                       "`pstripack convert {} --duplicates first -o "
                       "start.nodes.nc` writes what they can read",
                       input.file));
@@ -759,7 +759,7 @@ void add_scvt(CLI::App& app, Command& chosen) {
                   "initial generators, or the output or checkpoint of a run to continue")
       ->type_name("FILE");
   CLI::Option* const formula =
-      sub->add_option("--density", options->density, "see below [that of --start, or constant]")
+      sub->add_option("--density", options->density, "density, see below [that of --start, or constant]")
           ->type_name("FORMULA");
   sub->add_option("--density-file", options->density_file,
                   "density at nodes, linear in between: lines of lon lat value or x y z value, or NetCDF")
@@ -778,8 +778,8 @@ void add_scvt(CLI::App& app, Command& chosen) {
              throw CLI::ValidationError("--width", e.what());
            }
          },
-         "of all cells, say 60km, or a formula, see below: distance of neighbours in a mesh of regular "
-         "hexagons; N follows from it")
+         "width of all cells, as in 60km, or a formula, see below. It is the distance of neighbours in a "
+         "mesh of regular hexagons; N follows from it")
       ->type_name("WIDTH")
       ->excludes("--density")
       ->excludes("--density-file");
@@ -794,12 +794,12 @@ void add_scvt(CLI::App& app, Command& chosen) {
       ->type_name("FILE");
   add_limited_area(*sub, options->region)->excludes("--density")->excludes("--density-file");
   sub->add_option("--grade", options->grade,
-                  "most that widths may change, km per km: wider ones are lowered [0.2]")
+                  "largest change of widths, km per km: widths above it are lowered [0.2]")
       ->type_name("NUMBER")
       ->check(number_from(kAbove0, kLargest, "a finite number above 0"));
-  add_radius(*sub, options->radius, "of the sphere of widths [6371220], and in an MPAS mesh [1]");
+  add_radius(*sub, options->radius, "radius of the sphere: for widths [6371220], in an MPAS mesh [1]");
   sub->add_option("--variable", options->variable,
-                  "in the file of densities or widths: name (NetCDF) or column (text, from 1)")
+                  "variable of the file of densities or widths: its name (NetCDF) or column (text, from 1)")
       ->type_name("NAME");
   add_choice(*sub, "--method", options->method, {{"newton", Method::newton}, {"lloyd", Method::lloyd}},
              "newton (L-BFGS) or lloyd [newton]");
@@ -810,20 +810,22 @@ void add_scvt(CLI::App& app, Command& chosen) {
       ->check(number_from(0, kLargest, "a number of at least 0"));
   sub->add_flag(
       "--well-centred", options->well_centred,
-      "in the end move a few generators so that all triangles hold their circumcentre; always for mpas");
-  sub->add_flag("--strict", options->strict,
-                "status 1 if the mesh is not converged, or not well centred where that is asked");
-  sub->add_option("--evaluations", options->evaluations,
-                  "most evaluations of all N cells, those of the continued run included")
+      "move a few generators in the end, so that all triangles hold their circumcentre; always for mpas");
+  sub->add_flag(
+      "--strict", options->strict,
+      "status 1 if the run has not converged, or if a well-centred mesh was asked for and is not reached");
+  sub->add_option(
+         "--evaluations", options->evaluations,
+         "largest number of evaluations of all N cells, including those of a run that --start continues")
       ->type_name("NUMBER")
       ->transform(whole_number())
       ->capture_default_str();
   sub->add_option("--time-limit", options->time_limit,
-                  "end the iterations after this time from the start, and write the mesh; so does a signal "
-                  "TERM or INT")
+                  "end the iterations after this time from the start, and write the mesh; a signal TERM or "
+                  "INT does the same")
       ->type_name("SECONDS")
       ->check(number_from(kAbove0, kLargest, "a finite number above 0"));
-  sub->add_option("--checkpoint", options->checkpoint.file, "file to write every --every steps")
+  sub->add_option("--checkpoint", options->checkpoint.file, "file that is written after every --every steps")
       ->type_name("FILE");
   sub->add_option("--every", options->every, "steps between checkpoints")
       ->type_name("NUMBER")
@@ -845,16 +847,16 @@ Densities:
 A NetCDF density on the two axes of a global longitude-latitude grid is bilinear between its values.
 
 Widths, in km, angles in degrees:
-  60km                                of all cells
+  60km                                the width of all cells
   disc:INNER,OUTER,RADIUS,TRANSITION,LON,LAT
   band:INNER,OUTER,RADIUS,TRANSITION,LAT
                                       INNER up to RADIUS km from LON,LAT, or from the parallel LAT; then over TRANSITION
                                       km, which --grade may lengthen, smoothly to OUTER
 
 To continue a run, repeat its command with --start CHECKPOINT instead of N: the result has the same bits as without
-interruption, but for the history of the file. NetCDF files hold evaluations and density. Only NetCDF checkpoints other
-than mpas also hold the state of --method newton, which restarts from other files. A step takes one or more evaluations;
-the last step is finished.
+interruption, except the history of the file. NetCDF files hold evaluations and density. NetCDF checkpoints also hold the
+state of --method newton; mpas files and other formats do not, and the method restarts. A step takes one or more
+evaluations; the last step is finished.
 --from, --coordinates and --units apply to both input files.
 
 )" + sub->get_footer());

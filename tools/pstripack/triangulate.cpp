@@ -152,7 +152,7 @@ void add_triangulate(CLI::App& app, Command& chosen) {
            if (options->longest.radians == 0)
              throw CLI::ValidationError("--longest", "'" + text + "' leaves out everything");
          },
-         "leave out triangles with a longer side, or longer links: 500km, 20m, 5deg, 0.1rad")
+         "leave out triangles with a side longer than this, and longer links: 500km, 20m, 5deg, 0.1rad")
       ->type_name("DISTANCE");
 }
 

@@ -455,8 +455,8 @@ def test_tables_that_would_take_any_memory():
     places = [(k % 360, k // 50) for k in range(4000)]
     write("notes.csv", "lon,lat,note\n" + "".join(f"{lon},{lat},a\n" for lon, lat in places) + "7.5,80.5," + 20000 * "x")
     if os.environ.get("NETCDF"):
-        refuses(1, "convert notes.csv -o notes.nc", "notes.nc: column 'note' has a text of 20000 bytes, as long as which all "
-                "in a NetCDF file are, 80 MB: leave the column out by --columns")
+        refuses(1, "convert notes.csv -o notes.nc", "notes.nc: column 'note' has a text of 20000 bytes, and NetCDF "
+                "stores all texts as long as this, 80 MB: leave the column out by --columns")
     write("own.geojson", json.dumps({"type": "FeatureCollection", "features": [
         {"type": "Feature", "properties": {f"p{k}": 1}, "geometry": {"type": "Point", "coordinates": place}}
         for k, place in enumerate(places)]}))
@@ -809,14 +809,14 @@ def test_values_and_grids_that_are_refused():
             (2, "a.txt --grid-step 1km -o b.txt", "--grid-step: '1km' is not a number of degrees above 0"),
             (2, "a.txt --grid-step 7 -o b.txt", "180 degrees are not a multiple of 7"),
             (2, "a.txt --grid-step 30", "--output or --weights is required"),
-            (2, "a.txt --grid-step 30 --duplicates mean --weights b.nc", "--weights: are of one node for each place"),
+            (2, "a.txt --grid-step 30 --duplicates mean --weights b.nc", "--weights: need one node for each place"),
             (2, "a.txt --grid-step 30 --nearest-node --weights b.nc", "--nearest-node: is for columns of the output"),
             (1, "three.txt --grid-step 30 --weights b.nc", "three.txt: has 3 columns: say --coordinates lonlat or xyz"),
             (2, "a.txt --to-grid 180 -o b.txt", "'180' is not 2 numbers"),
             (2, "a.txt --to-grid 1x5 --registration node -o b.txt", "expected NLATxNLON"),
             (2, "a.txt --grid-step 1 --box 5,5,0,1 -o b.txt", "--box: '5,5,0,1': expected WEST,EAST,SOUTH,NORTH"),
             (2, "a.txt --grid-step 30 -o b.xxx", "neither .nc nor .txt nor .csv: give --to"),
-            (2, "a.txt --to-points a.txt --registration node -o b.txt", "--registration: is of a grid"),
+            (2, "a.txt --to-points a.txt --registration node -o b.txt", "--registration: is for a grid"),
             (1, "octahedron.txt --grid-step 30 -o b.txt", "may be degrees or radians"),
             (1, "two.txt --grid-step 30 -o b.txt", "two.txt: has 2 columns; expected 'lon lat value' or 'x y z value'"),
             (1, "twice.txt --grid-step 30 -o b.txt", "are in the same place: remove one, or say --duplicates first"),
@@ -954,7 +954,7 @@ def test_scvt_first_generators():
     front, levels, chance = (output(f"scvt 3e3 --first {first} --evaluations 1 --tolerance 0.01 -o - --to xyz")
                              for first in ("front", "levels", "random"))
     assert output("scvt 3000 --evaluations 1 --tolerance 0.01 -o - --to xyz") == front != levels != chance
-    hint = "^pstripack: N = 10 4\\^5 \\+ 2: with --first levels all cells but 12 pentagons are hexagons$"
+    hint = "^pstripack: N = 10 4\\^5 \\+ 2: with --first levels all cells are hexagons, except 12 pentagons$"
     messages("scvt 10242 --evaluations 0 -o ten.txt", hint)
     messages("scvt 10242 --first levels -o ten.txt", "cells by sides: 5: 12, 6: 10230; ")
     for other in "10241", "10242 --first front", "10242 --density bump":
@@ -1323,7 +1323,7 @@ def test_scvt_ranks_refuse_what_they_cannot():
     for arguments, words in {
             "10 --first front -o failed.nc": "--first front: a front is made by one process: `pstripack scvt 10 --first front",
             "--start start.txt --duplicates first -o failed.nc":
-                "several ranks cannot: `pstripack convert start.txt --duplicates first",
+                "several ranks cannot join nodes: `pstripack convert start.txt --duplicates first",
             "10 -o failed.vtu": "failed.vtu: several ranks write ugrid, mpas,",
             "10 -o no/failed.nc": "no/failed.nc: cannot be written: No such file",
             "--start start.txt -o failed.nc":

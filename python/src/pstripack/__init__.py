@@ -1,5 +1,11 @@
 """Exact Delaunay triangulations and Voronoi diagrams on the sphere, on threads.
 
+Nodes, triangles and vertices count from 0, also in messages. Functions release Python's lock, and several threads may
+call them at the same time. ``threads`` is the number of threads that one call uses; None: OpenMP's (OMP_NUM_THREADS).
+Any number of threads gives the same bytes.
+
+Examples
+--------
 >>> import numpy as np
 >>> from pstripack import Delaunay, SphericalVoronoi
 >>> octahedron = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, 0, 0], [0, -1, 0], [0, 0, -1]])
@@ -7,10 +13,6 @@
 (8, 3)
 >>> round(SphericalVoronoi(octahedron).calculate_areas().sum() / np.pi, 12)
 4.0
-
-Nodes, triangles and vertices count from 0, also in messages. Functions release Python's lock, and several threads may
-call them at the same time. ``threads`` is the number of threads that one call uses; None: OpenMP's (OMP_NUM_THREADS).
-Any number of threads gives the same bytes.
 """
 from ._arrays import to_lonlat, to_xyz
 from ._core import version as __version__

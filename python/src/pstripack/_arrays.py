@@ -132,11 +132,29 @@ def unit_vectors(points: Floats) -> Floats:
 
 
 def to_xyz(lon: ArrayLike, lat: ArrayLike, degrees: bool = True) -> Floats:
-    """Unit vectors, of shape (..., 3), of longitudes and latitudes.
+    """Unit vectors of longitudes and latitudes.
 
-    Each pole has one vector for all longitudes. In degrees, longitudes that differ by 360 have equal vectors; in radians
-    the number nearest to a multiple of pi/2, of the arrays' precision, means the multiple.
+    Parameters
+    ----------
+    lon, lat : array_like
+        Longitudes and latitudes, which are broadcast.
+    degrees : bool
+        False: the angles are radians.
 
+    Returns
+    -------
+    array, shape (..., 3)
+        Each pole has one vector for all longitudes. In degrees, longitudes that differ by 360 have equal vectors. In
+        radians the number nearest to a multiple of pi/2, in the precision of the arrays, means the multiple.
+
+    Raises
+    ------
+    ValueError
+        If a latitude is beyond a pole, or the shapes do not fit each other.
+
+    Examples
+    --------
+    >>> from pstripack import to_xyz
     >>> to_xyz([0, 90, 12], [0, 0, 90])
     array([[1., 0., 0.],
            [0., 1., 0.],
@@ -208,8 +226,23 @@ def refuse_what_may_be_radians(lon: NDArray[Any], lat: NDArray[Any]) -> None:
 
 
 def to_lonlat(xyz: ArrayLike, degrees: bool = True) -> "tuple[Floats, Floats]":
-    """Longitudes from -180 to 180 and latitudes of vectors of any length.
+    """Longitudes and latitudes of vectors of any length.
 
+    Parameters
+    ----------
+    xyz : array_like, shape (..., 3)
+        The vectors.
+    degrees : bool
+        False: the results are radians.
+
+    Returns
+    -------
+    lon, lat : arrays, shape (...)
+        Longitudes from -180 to 180 degrees, and latitudes.
+
+    Examples
+    --------
+    >>> from pstripack import to_lonlat
     >>> to_lonlat([[0, 2, 0], [0, 0, -1]])
     (array([90.,  0.]), array([  0., -90.]))
     """

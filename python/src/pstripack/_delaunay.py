@@ -38,9 +38,9 @@ class Delaunay(Places, Measures, Presentation):
         Nodes this near to each other, in radians, are refused as if they coincided: 1.6e-10 is a millimetre on the
         Earth.
     duplicates : {"error", "first", "mean"}
-        Nodes in exactly the same direction are refused; or they become one node, in the place of the first of them, which
-        has the values of the first or the mean of their values that are not NaN. Values may then have a row for each given
-        row, or for each node.
+        What becomes of nodes in exactly the same direction. "error": they are refused. Otherwise they become one node, in
+        the place of the first of them. It has the value of the first, or the mean of their values that are not NaN. Values
+        may then have a row for each given row, or for each node.
     threads : int, optional
         Number of threads for the triangulation and for all that is computed from it.
 
@@ -49,21 +49,20 @@ class Delaunay(Places, Measures, Presentation):
     BadCoordinateError, CoincidentNodesError, CollinearNodesError, TriangulationError
         All are ValueError; their attribute ``nodes`` has the indices of the nodes in question, counted from 0.
 
+    Notes
+    -----
     Names and conventions are those of scipy.spatial.Delaunay. Arrays are computed on first access and read only: pass
     ``mesh.simplices + 1`` or a copy to what changes them.
 
-    >>> mesh = Delaunay.from_lonlat([0, 90, 180, 270, 0, 0], [0, 0, 0, 0, 90, -90])
+    Examples
+    --------
+    >>> from pstripack import Delaunay
+    >>> mesh = Delaunay([[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]])
     >>> mesh.simplices[:2]
     array([[0, 1, 4],
            [0, 4, 3]], dtype=int32)
     >>> mesh.neighbors[0]
     array([5, 1, 3], dtype=int32)
-    >>> mesh.find_simplex([1, 1, 1]).item(), mesh.nearest([1, 2, 1]).item()
-    (0, 1)
-    >>> mesh.interpolate([0, 1, 2, 3, 4, 5], [[1, 1, 0], [0, 0, 2]])
-    array([0.5, 4. ])
-    >>> mesh.nearest(lon=[10, 80], lat=[1, 60])    # places by longitude and latitude, in each method that takes places
-    array([0, 4], dtype=int32)
     """
 
     def __init__(self, points: ArrayLike, *, threshold: float = 0, duplicates: str = "error",
@@ -91,11 +90,35 @@ class Delaunay(Places, Measures, Presentation):
     @classmethod
     def from_lonlat(cls, lon: ArrayLike, lat: ArrayLike, *, degrees: bool = True, units: Optional[str] = None,
                     threshold: float = 0, duplicates: str = "error", threads: Optional[int] = None) -> "Delaunay":
-        """The triangulation of nodes given by longitudes and latitudes; see :func:`to_xyz`. The labels of a Series or
-        DataArray of longitudes become the attribute ``labels``; values then enter by them.
+        """The triangulation of nodes given by longitudes and latitudes.
 
-        ``units``: "degrees" or "radians". Without it: radians if ``degrees`` is false; else degrees, and a ValueError if
-        no longitude is beyond 2 pi and no latitude beyond pi/2, since these may be radians.
+        Parameters
+        ----------
+        lon, lat : array_like
+            As in :func:`to_xyz`. The labels of a Series or DataArray of longitudes become the attribute ``labels``.
+        degrees : bool
+            False: the angles are radians, unless ``units`` is given.
+        units : {"degrees", "radians"}, optional
+            The units. Default: degrees, and a ValueError if no longitude is beyond 2 pi and no latitude beyond pi/2, since
+            these may be radians.
+        threshold, duplicates, threads
+            As in :class:`Delaunay`.
+
+        Returns
+        -------
+        Delaunay
+            The mesh.
+
+        Raises
+        ------
+        ValueError
+            Those of :class:`Delaunay` and :func:`to_xyz`, and if the units are not certain.
+
+        Examples
+        --------
+        >>> from pstripack import Delaunay
+        >>> Delaunay.from_lonlat([0, 90, 180, 270, 0, 0], [0, 0, 0, 0, 90, -90])
+        <pstripack.Delaunay: 6 nodes, 8 triangles, whole sphere>
         """
         labels = _labels_of(lon)
         if labels is not None and np.ndim(lat) == 1:
@@ -118,12 +141,38 @@ class Delaunay(Places, Measures, Presentation):
     @classmethod
     def from_dataframe(cls, table: Any, *, columns: Optional[Sequence[Any]] = None, units: Optional[str] = None,
                        threshold: float = 0, duplicates: str = "error", threads: Optional[int] = None) -> "Delaunay":
-        """The triangulation of nodes in a table with columns lon and lat, or x, y and z (a DataFrame of pandas or polars).
+        """The triangulation of nodes in a table. The index of the table becomes the attribute ``labels``.
 
-        Also found: long, lng, longitude, clon, nav_lon and the like, with an end _deg, _degrees, _rad or _radians, or a
-        unit as in "lon [deg]". A ValueError if columns are missing, or several may be meant;
-        ``columns=(longitude, latitude)`` or ``columns=(x, y, z)`` names them. ``units``: see :func:`from_lonlat`. The
-        attribute ``labels`` is the index of the table; values enter by it.
+        Parameters
+        ----------
+        table : DataFrame of pandas or polars
+            It has columns lon and lat, or x, y and z. Other names of longitudes and latitudes are found, too: long, lng,
+            longitude, clon, nav_lon and the like, also with an end _deg, _degrees, _rad or _radians, or with a unit as in
+            "lon [deg]".
+        columns : (longitude, latitude) or (x, y, z), optional
+            The names of the columns, if they are others.
+        units : {"degrees", "radians"}, optional
+            As in :meth:`from_lonlat`. Default: what the names of the columns tell.
+        threshold, duplicates, threads
+            As in :class:`Delaunay`.
+
+        Returns
+        -------
+        Delaunay
+            The mesh.
+
+        Raises
+        ------
+        ValueError
+            Those of :meth:`from_lonlat`, and if columns are missing, or several may be meant.
+
+        Examples
+        --------
+        >>> import pandas as pd
+        >>> from pstripack import Delaunay
+        >>> table = pd.DataFrame({"lon": [0, 10, 0, 30], "lat": [40, 45, 50, 50]}, index=list("abcd"))
+        >>> Delaunay.from_dataframe(table).labels
+        Index(['a', 'b', 'c', 'd'], dtype='object')
         """
         names, unit = coordinate_columns(table, columns)
         if len(names) == 2:
@@ -138,7 +187,33 @@ class Delaunay(Places, Measures, Presentation):
 
     @classmethod
     def from_xarray(cls, dataset: Any, *, threads: Optional[int] = None) -> "Delaunay":
-        """The triangulation that :meth:`to_xarray` has made this Dataset of: the same bits, and the same ``labels``."""
+        """The triangulation of which :meth:`to_xarray` has made a Dataset: the same bits, and the same ``labels``.
+
+        Parameters
+        ----------
+        dataset : xarray.Dataset
+            The Dataset.
+        threads : int, optional
+            As in :class:`Delaunay`.
+
+        Returns
+        -------
+        Delaunay
+            The mesh.
+
+        Raises
+        ------
+        ValueError
+            If the Dataset has no nodes, or is not one of :meth:`to_xarray`.
+
+        Examples
+        --------
+        >>> import xarray as xr
+        >>> from pstripack import Delaunay
+        >>> mesh = Delaunay.from_lonlat([0, 10, 0, 30], [40, 45, 50, 50])
+        >>> bool((Delaunay.from_xarray(mesh.to_xarray()).points == mesh.points).all())
+        True
+        """
         points, labels = nodes_of_dataset(dataset)
         mesh = cls(points, threads=threads)
         mesh.labels = labels
@@ -154,7 +229,7 @@ class Delaunay(Places, Measures, Presentation):
 
     @property
     def node_of_row(self) -> Ints:
-        """The node of each row that the mesh was made of; without ``duplicates`` 0, 1, 2, ..."""
+        """The node of each row that the mesh was made of: 0, 1, 2, ... unless ``duplicates`` has joined nodes."""
         return np.arange(self.npoints, dtype=np.int32) if self._rows is None else self._rows.node
 
     def __getstate__(self) -> Dict[str, Any]:
@@ -190,27 +265,27 @@ class Delaunay(Places, Measures, Presentation):
     @property
     @once
     def neighbors(self) -> Ints:
-        """The triangle opposite each corner, shape (t, 3); -1: none."""
+        """The triangle opposite each corner, shape (t, 3). -1: none."""
         return self._mesh.opposite_triangles(self._threads)
 
     @property
     @once
     def vertex_neighbor_vertices(self) -> Tuple[Ints, Ints]:
-        """(indptr, indices): the neighbours of node k are indices[indptr[k]:indptr[k+1]], counterclockwise. For a boundary
-        node the first and the last one are its neighbours on the boundary."""
+        """(indptr, indices): the neighbours of node k are indices[indptr[k]:indptr[k+1]], counterclockwise. Those of a
+        boundary node begin and end with its neighbours on the boundary."""
         return self._mesh.neighbours(self._threads)
 
     @property
     def vertex_to_simplex(self) -> Ints:
-        """One triangle of each node."""
+        """One triangle of each node, shape (n,)."""
         result = np.empty(self.npoints, np.int32)
         result[self.simplices] = np.arange(self.nsimplex, dtype=np.int32)[:, np.newaxis]
         return result
 
     @property
     def convex_hull(self) -> Ints:
-        """Boundary arcs, shape (b, 2), counterclockwise around the triangles; each begins where the previous one ends.
-        b = 0 if the triangles cover the sphere."""
+        """Boundary arcs, shape (b, 2), counterclockwise round the triangles. Each begins where the previous one ends. There
+        are none if the triangles cover the sphere."""
         nodes = self._mesh.boundary()
         return np.stack([nodes, np.roll(nodes, -1)], axis=1)
 
@@ -223,20 +298,40 @@ class Delaunay(Places, Measures, Presentation):
               title: Optional[str] = None, name: str = "value", unit: str = "",
               coasts: "Union[bool, str, os.PathLike[str]]" = False,
               three_file: "Optional[Union[str, os.PathLike[str]]]" = None) -> Globe:
-        """A globe to turn, of Voronoi cells: a page for any browser, which notebooks show.
+        """A globe of Voronoi cells, to be turned: a page for any browser. Notebooks show it.
 
         Parameters
         ----------
         values : array_like, shape (n,), optional
-            The cells have the colours of these numbers, called ``name``, in ``unit``; NaN: grey. Without them: of the
-            areas, on a sphere of radius 6371 km.
+            The numbers that give the cells their colours; NaN is grey. Default: the areas of the cells on a sphere of
+            radius 6371 km.
         file : path, optional
             The page is also written to this file.
+        title : str, optional
+            Title of the page. Default: the number of nodes.
+        name, unit : str
+            What the values are, and their unit.
         coasts : bool or path
-            Coast lines: True: Natural Earth's, of Debian's libmagics++-data; or those of a shapefile in degrees.
+            True: coast lines of Natural Earth, from Debian's libmagics++-data. A path: those of a shapefile in degrees.
         three_file : path, optional
-            The file three.min.js, of release 111 to 160. None: what the environment variable PSTRIPACK_THREE names, or
-            the wheel's, or that of Debian's libjs-three. RuntimeError if there is none.
+            The file three.min.js, of release 111 to 160. Default: that which the environment variable PSTRIPACK_THREE
+            names, or the wheel's, or that of Debian's libjs-three.
+
+        Returns
+        -------
+        Globe
+            The page.
+
+        Raises
+        ------
+        RuntimeError
+            If there is no three.js, or no coast lines.
+
+        Examples
+        --------
+        >>> from pstripack import Delaunay
+        >>> Delaunay([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]]).globe([1, 2, 3, 4], name="height", unit="m")
+        <pstripack globe of 4 nodes, ... MB>
         """
         colours = None if values is None else self._enter(values, self.npoints)
         return globe(self, colours, file, title, name, unit, coasts, three_file)

@@ -21,11 +21,20 @@ _OWN_THREE = Path(__file__).parent / "three.min.js"
 
 
 class Globe:
-    """A page that needs no other file and no network. Notebooks show it.
+    """A page of HTML that needs no other file and no network, as :meth:`Delaunay.globe` returns it. Notebooks show it.
 
+    Attributes
+    ----------
+    html : str
+        The page.
+
+    Examples
+    --------
     >>> from pstripack import Delaunay
-    >>> globe = Delaunay([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]]).globe()    # doctest: +SKIP
-    >>> globe.save("globe.html")                                                    # doctest: +SKIP
+    >>> globe = Delaunay([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]]).globe()
+    >>> globe
+    <pstripack globe of 4 nodes, ... MB>
+    >>> globe.save("globe.html")
     """
 
     def __init__(self, page: str, nodes: int) -> None:
@@ -33,7 +42,13 @@ class Globe:
         self._nodes = nodes
 
     def save(self, file: "Union[str, os.PathLike[str]]") -> None:
-        """Writes the page, as UTF-8."""
+        """Writes the page, as UTF-8.
+
+        Parameters
+        ----------
+        file : path
+            The file.
+        """
         Path(file).write_bytes(self.html.encode())
 
     def __repr__(self) -> str:

@@ -30,9 +30,8 @@ def once(compute: "Callable[[Any], Result]") -> "Callable[[Any], Result]":
 
 
 class Measures(Values):
-    """Part of :class:`Delaunay`. Arrays are computed on first access, once, and are read only. Lengths and areas are those
-    of the unit sphere: radians and steradians, to be multiplied by the radius and its square. All is of the directions
-    of the nodes."""
+    """Part of :class:`Delaunay`. Arrays are computed on first access, once, and are read only. Lengths are radians and areas
+    steradians: multiply them by the radius and by its square. Lengths of the vectors to the nodes do not count."""
 
     _mesh: _core.Mesh
     _threads: int
@@ -50,8 +49,8 @@ class Measures(Values):
     @property
     @once
     def edges(self) -> Ints:
-        """The two nodes of each edge, shape (e, 2): each edge once, the smaller node first, in the order of these; those
-        with the same first node are counterclockwise round it."""
+        """The two nodes of each edge, shape (e, 2). Each edge occurs once, the smaller node first. Edges are sorted by their
+        first node; those with the same first node are counterclockwise round it."""
         indptr, indices = self.vertex_neighbor_vertices
         first = np.repeat(np.arange(self.npoints, dtype=np.int32), np.diff(indptr))
         once = first < indices
@@ -60,7 +59,7 @@ class Measures(Values):
     @property
     @once
     def edge_lengths(self) -> Floats:
-        """Lengths of the edges in radians, right up to 1e-15 of themselves."""
+        """Lengths of the edges in radians, shape (e,). The relative error is at most 1e-15."""
         first, second = self.edges.T
         return self._mesh.distances(np.ascontiguousarray(self.points[first]), np.ascontiguousarray(second)[:, np.newaxis],
                                     self._threads)[:, 0]
@@ -68,12 +67,12 @@ class Measures(Values):
     @property
     @once
     def edge_midpoints(self) -> Floats:
-        """The middle of each edge, unit vectors, shape (e, 3)."""
+        """Unit vectors to the middle of each edge, shape (e, 3)."""
         return self._mesh.midpoints(self.edges, self._threads)
 
     @property
     def hull_polygon(self) -> Ints:
-        """The boundary nodes, shape (b,), counterclockwise round the triangles; empty if these cover the sphere."""
+        """The boundary nodes, shape (b,), counterclockwise round the triangles. Empty if the triangles cover the sphere."""
         return self._mesh.boundary()
 
     @property
@@ -85,8 +84,8 @@ class Measures(Values):
     @property
     @once
     def circumradii(self) -> Floats:
-        """Radii of these circles in radians, shape (t,): less than pi/2, and right up to 1e-15 of themselves, beyond 60
-        degrees up to 7e-15 radians."""
+        """Radii of the triangles' circumscribed circles in radians, shape (t,), less than pi/2. The relative error is at most
+        1e-15; for radii beyond 60 degrees the error is at most 7e-15 radians."""
         return self._mesh.circumradii(self._threads)
 
     @property
@@ -105,8 +104,8 @@ class Measures(Values):
     @property
     @once
     def cell_centroids(self) -> Floats:
-        """Centroids of the Voronoi cells, shape (n, 3): the unit vectors in the directions of the integrals of the position
-        over the cells. Right up to 1e-15 radians for each unit of the cell's length over its width."""
+        """Centroids of the Voronoi cells, shape (n, 3): unit vectors in the directions of the integrals of the position over
+        the cells. The error is at most 1e-15 radians times the cell's length over its width."""
         return self._mesh.cell_centroids(self._threads)
 
     def gradient(self, values: ArrayLike) -> Floats:
@@ -123,20 +122,48 @@ class Measures(Values):
         array, shape (n, 3) or (n, ..., 3)
             Vectors, each tangential at its node, in units of the values for each radian: divide them by the radius.
 
-        The gradient is that of the quadratic function in the tangent plane that passes through the value of the node and
-        fits best those of its neighbours and their neighbours, weighted by one over the squared distance (Renka, ACM
-        TOMS 10, 1984, section 3); that of a linear function where these nodes do not determine a quadratic one. Where they
-        lie on a curve, to 3e-5 of their distances, such as a section or a track, it is the slope along the curve; the part
-        across it, which they do not tell, is 0. The method "cubic" of :meth:`interpolate` uses the same. The error is of
-        the second order in the distances between nodes, of the first order on the boundary.
+        Notes
+        -----
+        A quadratic function in the tangent plane passes through the value of the node. It fits best the values of its
+        neighbours and of their neighbours, weighted by one over the squared distance (Renka, ACM TOMS 10, 1984,
+        section 3). The result is the gradient of this function, or of a linear one where the nodes do not determine a
+        quadratic one. Where the nodes lie on a curve, such as a section or a track, to 3e-5 of their distances, the result
+        is the slope along the curve: the part across the curve is 0. The method "cubic" of :meth:`interpolate` uses these
+        gradients. The error is of the second order in the distances between nodes, on the boundary of the first order.
+
+        Examples
+        --------
+        >>> from pstripack import Delaunay
+        >>> mesh = Delaunay.from_lonlat([0, 90, 180, 270, 0, 0], [0, 0, 0, 0, 90, -90])
+        >>> mesh.gradient([1, 1, 1, 1, 1, 1]).shape
+        (6, 3)
         """
         given = real(self._enter(values, self.npoints))
         table = np.require(given.reshape(self.npoints, -1), np.float64, ["A", "C"])
         return self._mesh.gradients(table, self._threads).reshape(given.shape + (3,))
 
     def gradient_lonlat(self, values: ArrayLike) -> Tuple[Floats, Floats]:
-        """The parts (east, north) of :meth:`gradient`, each of the shape of the values. At a pole they are along the
-        meridians of 90 and of 0 degrees, as if the pole had the longitude 0."""
+        """Gradients of values at the nodes, to the east and to the north.
+
+        Parameters
+        ----------
+        values : array_like, shape (n,) or (n, ...)
+            As in :meth:`gradient`.
+
+        Returns
+        -------
+        east, north : arrays of the shape of the values
+            The parts of :meth:`gradient`. At a pole they are along the meridians of 90 and of 0 degrees, as if the pole had
+            the longitude 0.
+
+        Examples
+        --------
+        >>> from pstripack import Delaunay
+        >>> mesh = Delaunay.from_lonlat([0, 90, 180, 270, 0, 0], [0, 0, 0, 0, 90, -90])
+        >>> east, north = mesh.gradient_lonlat(mesh.points[:, 2])
+        >>> bool(abs(east).max() < 1e-12), bool(north[0] > 0)
+        (True, True)
+        """
         slopes = self.gradient(values)
         x, y, z = unit_vectors(self.points).T
         level = np.hypot(x, y)

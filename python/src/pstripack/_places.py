@@ -13,11 +13,8 @@ from ._values import Values
 
 
 class Places(Values):
-    """Part of :class:`Delaunay`. Places are ``xi``, vectors of any length, shape (..., 3), or ``lon`` and ``lat``, which
-    are broadcast: ``lon=lon, lat=lat[:, np.newaxis]`` is a grid. Results have the shape of the places. Angles have names
-    in each call, so that they are not taken for vectors, nor for each other. Their units are those of
-    :meth:`Delaunay.from_lonlat`, if that made the mesh; otherwise degrees, refused where they may be radians.
-    ``units="degrees"`` or ``"radians"`` decides."""
+    """Part of :class:`Delaunay`. Places are vectors, or longitudes and latitudes, which are broadcast:
+    ``lon=lon, lat=lat[:, np.newaxis]`` is a grid. Results have the shape of the places."""
 
     _mesh: _core.Mesh
     _threads: int
@@ -34,16 +31,37 @@ class Places(Values):
     def find_simplex(self, xi: Optional[ArrayLike] = None, *, lon: Optional[ArrayLike] = None,
                      lat: Optional[ArrayLike] = None, units: Optional[str] = None,
                      threads: Optional[int] = None) -> Ints:
-        """The triangle that contains each place; -1: none. A place outside the triangles counts as on their border if it is
-        inside when moved by 1e-12 of the way to the middle of the nodes and 4e-16 radians. Of two triangles with the place
-        on their common side it is that with the smaller third corner.
+        """The triangle that contains each place.
 
         Parameters
         ----------
         xi : array_like, shape (..., 3)
             Vectors of any length to the places.
         lon, lat : array_like
-            In place of them, longitudes and latitudes in the units of from_lonlat, by default degrees; or in ``units``.
+            In place of ``xi``: longitudes and latitudes.
+        units : {"degrees", "radians"}, optional
+            The units of ``lon`` and ``lat``. Default: those of the nodes, if :meth:`from_lonlat` or a table of angles made
+            the mesh; otherwise degrees, and a ValueError if the angles may be radians.
+        threads : int, optional
+            Number of threads of this call. Default: that of the mesh.
+
+        Returns
+        -------
+        array of int, shape (...)
+            Numbers of triangles; -1: none contains the place. A place on the common side of two triangles is in the one
+            with the smaller third corner.
+
+        Notes
+        -----
+        A place outside the triangles counts as on their border if a small step brings it inside: a step towards the middle
+        of the nodes, of 1e-12 of the way and 4e-16 radians.
+
+        Examples
+        --------
+        >>> from pstripack import Delaunay
+        >>> mesh = Delaunay.from_lonlat([0, 90, 180, 270, 0, 0], [0, 0, 0, 0, 90, -90])
+        >>> mesh.find_simplex([[1, 1, 1], [1, -1, -1]])
+        array([0, 2], dtype=int32)
         """
         places = self._vectors(xi, lon, lat, units)
         found, _ = self._mesh.find(places.reshape(-1, 3), self.simplices, False, self._number(threads))
@@ -55,20 +73,33 @@ class Places(Values):
                     threads: Optional[int] = None) -> Tuple[Ints, Floats]:
         """The triangle that contains each place, and the place's barycentric coordinates in it.
 
+        Parameters
+        ----------
+        xi, lon, lat, units, threads
+            As in :meth:`find_simplex`.
+
         Returns
         -------
         simplex : array of int, shape (...)
-            As of :meth:`find_simplex`.
+            As :meth:`find_simplex` returns them.
         coordinates : array, shape (..., 3)
-            The weights of the corners ``simplices[simplex]``: det(p, b, c), det(a, p, c), det(a, b, p) over their sum,
-            which are those of the point where the ray to p meets the plane of the triangle (Renka, SSRFPACK, ACM TOMS
-            23, 1997). None is below 0, their sum is 1. On a side the opposite corner has 0; at a node it has 1.
+            The weights of the corners ``simplices[simplex]``: det(p, b, c), det(a, p, c), det(a, b, p) over their sum.
+            They belong to the point where the ray to p meets the plane of the triangle (Renka, SSRFPACK, ACM TOMS 23,
+            1997). Each is at least 0, and their sum is 1. On a side the opposite corner has 0; a node has 1 at itself.
             NaN outside the triangles.
 
         Raises
         ------
         ValueError
-            If a place has no direction; tells which.
+            If a place is not finite, or zero; the message says which.
+
+        Examples
+        --------
+        >>> from pstripack import Delaunay
+        >>> mesh = Delaunay.from_lonlat([0, 90, 180, 270, 0, 0], [0, 0, 0, 0, 90, -90])
+        >>> simplex, coordinates = mesh.barycentric([1, 1, 2])
+        >>> simplex.item(), coordinates
+        (0, array([0.25, 0.25, 0.5 ]))
         """
         places = _with_directions(self._vectors(xi, lon, lat, units), lon, lat)
         found, table = self._mesh.find(places.reshape(-1, 3), self.simplices, True, self._number(threads))
@@ -81,32 +112,39 @@ class Places(Values):
 
         Parameters
         ----------
-        xi : array_like, shape (..., 3)
-            Vectors of any length to the places.
         k : int
             Number of nodes for each place.
-        lon, lat : array_like
-            In place of ``xi``, longitudes and latitudes in the units of from_lonlat, by default degrees; or in ``units``.
+        xi, lon, lat, units, threads
+            As in :meth:`find_simplex`.
         distance : bool
-            Also return the distances, along great circles, in radians; right up to 1e-15 of themselves.
+            Also return the distances, along great circles, in radians. Their relative error is at most 1e-15.
         radius : float, optional
-            Return all nodes up to this distance in radians instead of k nodes; at most pi.
+            Instead of k nodes return all nodes up to this distance, in radians, at most pi.
 
         Returns
         -------
-        nodes : array of int, shape (...); (..., k) if k > 1; a number for one place
-        distances, nodes : as scipy.spatial.cKDTree.query returns them, with ``distance``
-        indptr, indices : with ``radius``; the nodes of place i, counted in C order, are
-            indices[indptr[i]:indptr[i+1]], the nearest first
-        distances, indptr, indices : with both
+        nodes : array of int, shape (...), or (..., k) if k > 1
+            The nearest nodes, the nearest first.
+        distances, nodes : arrays
+            With ``distance``, as scipy.spatial.cKDTree.query returns them.
+        indptr, indices : arrays of int
+            With ``radius``: the nodes of place i, counted in C order, are indices[indptr[i]:indptr[i+1]], the nearest first.
+        distances, indptr, indices : arrays
+            With both.
 
         Raises
         ------
         ValueError
-            If a place has no direction; tells which.
+            If a place is not finite, or zero; the message says which.
 
-        The nearest node: steps to nearer neighbours. Another node that is among the k nearest is a neighbour of a nearer
-        one.
+        Examples
+        --------
+        >>> from pstripack import Delaunay
+        >>> mesh = Delaunay.from_lonlat([0, 90, 180, 270, 0, 0], [0, 0, 0, 0, 90, -90])
+        >>> mesh.nearest([1, 2, 3], k=2)
+        array([4, 1], dtype=int32)
+        >>> mesh.nearest(lon=10, lat=20, radius=1)
+        (array([0, 1], dtype=int32), array([0], dtype=int32))
         """
         places = self._vectors(xi, lon, lat, units)
         flat, number = places.reshape(-1, 3), self._number(threads)
@@ -135,22 +173,20 @@ class Places(Values):
     def weights(self, xi: Optional[ArrayLike] = None, method: str = "linear", *, lon: Optional[ArrayLike] = None,
                 lat: Optional[ArrayLike] = None, units: Optional[str] = None, outside: str = "empty",
                 threads: Optional[int] = None) -> Any:
-        """The weights of the nodes in an interpolated value at each place, to be used again and again:
-        ``mesh.weights(places) @ values`` is ``mesh.interpolate(values, places)`` up to rounding. The matrix takes values in
-        the order of the nodes: of a Series, ``values[mesh.labels]``. Outside the triangles the product is 0, unless
-        ``outside`` says otherwise.
+        """The weights of the nodes in the interpolated value at each place, for many fields on the same nodes. Needs SciPy.
+
+        ``mesh.weights(places) @ values`` is ``mesh.interpolate(values, places)`` up to rounding. The values must be in the
+        order of the nodes: ``values[mesh.labels]`` of a Series.
 
         Parameters
         ----------
-        xi : array_like, shape (..., 3)
-            Vectors of any length to the places.
         method : {"linear", "natural", "cubic"}
-            As of :meth:`interpolate`.
-        lon, lat : array_like
-            In place of ``xi``, longitudes and latitudes in the units of from_lonlat, by default degrees; or in ``units``.
+            As in :meth:`interpolate`.
+        xi, lon, lat, units, threads
+            As in :meth:`find_simplex`.
         outside : {"empty", "nearest", "nan"}
-            The row of a place outside the triangles: no weight, or 1 for the nearest node, or NaN for it, so that products
-            are NaN.
+            The row of a place outside the triangles: empty, so that products are 0; or 1 for the nearest node; or NaN for
+            it, so that products are NaN.
 
         Returns
         -------
@@ -160,7 +196,15 @@ class Places(Values):
         Raises
         ------
         ValueError
-            If a place has no direction; tells which.
+            If a place is not finite, or zero; the message says which.
+
+        Examples
+        --------
+        >>> from pstripack import Delaunay
+        >>> mesh = Delaunay.from_lonlat([0, 90, 180, 270, 0, 0], [0, 0, 0, 0, 90, -90])
+        >>> matrix = mesh.weights([[1, 1, 2], [0, 0, 1]])
+        >>> matrix.shape, matrix @ [0, 0, 0, 0, 1, 0]
+        ((2, 6), array([0.5, 1. ]))
         """
         import scipy.sparse  # type: ignore[import]
         if method not in ("linear", "natural", "cubic"):
@@ -186,20 +230,32 @@ class Places(Values):
         ----------
         values : array_like, shape (n,) or (n, ...)
             One or several values of each node, in the order of the nodes or with their ``labels``.
-        xi : array_like, shape (..., 3)
-            Vectors to the places.
         method : {"linear", "natural", "cubic", "nearest"}
             "linear": linear on triangles; continuous. "natural": natural neighbours (Sibson), weighted by the area that
             their Voronoi cells would lose to a node at the place; smooth except at the nodes. "cubic": natural
-            neighbours and gradients estimated from neighbours and their neighbours; smooth; results can exceed the
-            range of the values, and a value that is not finite spoils results around it. "nearest": the value of the
-            nearest node.
-        lon, lat : array_like
-            In place of ``xi``, longitudes and latitudes in the units of from_lonlat, by default degrees; or in ``units``.
+            neighbours and :meth:`gradient`; smooth. Its results can exceed the range of the values, and a value that is
+            not finite spoils results around it. "nearest": the value of the nearest node.
+        xi, lon, lat, units, threads
+            As in :meth:`find_simplex`.
         outside : {"nan", "nearest"}
-            Result of the other methods at places outside the triangles.
+            Result at places outside the triangles: NaN, or the value of the nearest node, as "nearest" has it everywhere.
 
-        At a place that is not finite, or zero, the result is NaN.
+        Returns
+        -------
+        array, shape (...) or (..., ...)
+            The values; NaN at a place that is not finite, or zero. One place and one value: a number.
+
+        Raises
+        ------
+        ValueError
+            If the values do not fit the nodes, by number or by labels.
+
+        Examples
+        --------
+        >>> from pstripack import Delaunay
+        >>> mesh = Delaunay.from_lonlat([0, 90, 180, 270, 0, 0], [0, 0, 0, 0, 90, -90])
+        >>> mesh.interpolate([0, 1, 2, 3, 4, 5], lon=[45, 0], lat=[0, 90])
+        array([0.5, 4. ])
         """
         if method not in ("linear", "natural", "cubic", "nearest"):
             raise ValueError(f"method must be 'linear', 'natural', 'cubic' or 'nearest', not {method!r}")

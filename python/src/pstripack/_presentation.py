@@ -34,15 +34,38 @@ class Presentation(Values):
                 + (f"boundary of {arcs} arcs>" if arcs > 0 else "whole sphere>"))
 
     def to_xarray(self, values: Any = None, what: str = "triangles", *, threads: Optional[int] = None) -> Any:
-        """The triangles or the Voronoi cells as an xarray.Dataset by the UGRID conventions, version 1.0. Needs xarray.
+        """The triangles or the Voronoi cells as a Dataset by the UGRID conventions, version 1.0. Needs xarray.
 
-        ``values``: one value of each node, or of each triangle or vertex of cells: an array, a Series, or several as a
-        dict, DataFrame or Dataset. Those of nodes enter by their ``labels``. They become variables with the attributes
-        ``mesh`` and ``location`` beside their own; DataArrays keep further dimensions, such as time. Indices count from 0
-        (``start_index``); -1 (``_FillValue``) fills the rows of cells with fewer corners. The vectors to the nodes and
-        their labels are coordinates: :meth:`Delaunay.from_xarray` makes the same mesh of them.
+        Parameters
+        ----------
+        values : array_like, Series, dict, DataFrame or Dataset, optional
+            One value of each node, or of each triangle or vertex of cells; a dict, DataFrame or Dataset has several. Values
+            of nodes enter by their ``labels``. They become variables, with the attributes ``mesh`` and ``location`` beside
+            their own. DataArrays keep further dimensions, such as time.
+        what : {"triangles", "cells"}
+            The faces. The mesh's nodes are those of the triangulation, or the vertices of the cells.
+        threads : int, optional
+            Number of threads of this call. Default: that of the mesh.
 
-        ``what``: "triangles" or "cells". The mesh's nodes are those of the triangulation, or the vertices of the cells.
+        Returns
+        -------
+        xarray.Dataset
+            Indices count from 0 (``start_index``); -1 (``_FillValue``) fills the rows of cells with fewer corners. The
+            vectors to the nodes and their labels are coordinates, of which :meth:`Delaunay.from_xarray` makes the same
+            mesh.
+
+        Raises
+        ------
+        ValueError
+            If values fit neither the nodes nor the faces, or two have one name.
+
+        Examples
+        --------
+        >>> import xarray as xr
+        >>> from pstripack import Delaunay
+        >>> mesh = Delaunay.from_lonlat([0, 10, 0, 30], [40, 45, 50, 50])
+        >>> mesh.to_xarray({"height": [1, 2, 3, 4]})["height"].dims
+        ('mesh_nodes',)
         """
         cells = _tables.kind(what, values)
         nodes = len(self._mesh.points)
@@ -52,18 +75,42 @@ class Presentation(Values):
 
     def to_geodataframe(self, what: str = "cells", values: Any = None, *, clip: Any = None,
                         threads: Optional[int] = None) -> Any:
-        """The Voronoi cells or the triangles as a geopandas.GeoDataFrame. Needs geopandas.
+        """The Voronoi cells or the triangles as polygons. Needs geopandas.
 
-        Polygons are counterclockwise, cut at the dateline, closed along a pole inside them, and within 0.001 degrees of
-        the arcs: 110 m on the Earth. The column ``area_km2`` is the exact area of the cell or triangle on a sphere of
-        radius 6371 km, or of its part inside ``clip``, to a millionth of the area of ``clip``.
+        Parameters
+        ----------
+        what : {"cells", "triangles"}
+            The polygons.
+        values : array_like, Series, dict or DataFrame, optional
+            One value of each cell or triangle; a dict or DataFrame has several. Those of cells enter by ``labels``. Given
+            columns ``area_km2`` and ``geometry`` get ``_given`` appended to their names.
+        clip : Polygon or MultiPolygon of shapely, GeoSeries or GeoDataFrame, optional
+            The cells are cut at this polygon, or at the union of these polygons. Its unit is the degree, and its sides are
+            straight on the map. The sides of cells are cut as arcs, before they are made straight.
+        threads : int, optional
+            Number of threads of this call. Default: that of the mesh.
 
-        ``what``: "cells" or "triangles". ``values``: one value of each cell or triangle: an array, a Series, or several
-        as a dict or DataFrame; those of cells enter by ``labels``. ``clip``: cuts the cells, before their sides are made
-        straight on the map, at a polygon or multipolygon of shapely, or at the union of those of a GeoSeries or
-        GeoDataFrame, in degrees, with sides straight on the map; a cell outside has the area 0 and no geometry. Columns called ``area_km2`` and ``geometry`` get
-        ``_given`` appended. The index of cells is ``labels``. If the nodes lie in a hemisphere, the cells of boundary nodes
-        share the rest of the sphere.
+        Returns
+        -------
+        geopandas.GeoDataFrame
+            Polygons are counterclockwise, cut at the dateline, closed along a pole inside them, and within 0.001 degrees of
+            the arcs: 110 m on the Earth. The column ``area_km2`` is the exact area of the cell or triangle on a sphere of
+            radius 6371 km, or of its part inside ``clip``; this part is right to a millionth of the area of ``clip``. A
+            cell outside ``clip`` has the area 0 and no geometry. The index of cells is ``labels``. If the nodes lie in a
+            hemisphere, the cells of boundary nodes share the rest of the sphere.
+
+        Raises
+        ------
+        ValueError
+            If values do not fit the cells or triangles, or two have one name.
+
+        Examples
+        --------
+        >>> import geopandas
+        >>> from pstripack import Delaunay
+        >>> mesh = Delaunay.from_lonlat([0, 10, 0, 30], [40, 45, 50, 50], units="degrees")
+        >>> list(mesh.to_geodataframe("triangles").columns)
+        ['area_km2', 'geometry']
         """
         cells = _tables.kind(what, values)
         areas = self.cell_areas if cells else self.areas
@@ -80,28 +127,47 @@ class Presentation(Values):
         Parameters
         ----------
         values : array_like, optional
-            One value of each node, in their order or with their ``labels``, or of each triangle, which gives the colours;
-            NaN is not drawn. A triangle has the mean of its three nodes. Default: draws lines.
+            One value of each node, in their order or with their ``labels``, or of each triangle. Values give the colours;
+            NaN is not drawn. A triangle has the mean of its three nodes. Default: lines are drawn.
         what : {"triangles", "cells"}
+            What is drawn.
         projection : {"map", "orthographic"}
-            Longitude and latitude in degrees, cut opposite the centre; or the view from infinitely far away, without the
-            hidden side.
+            "map": longitude and latitude in degrees, cut opposite the centre. "orthographic": the view from infinitely far
+            away, without the hidden side.
         center : (longitude, latitude), optional
             In degrees. Default: the middle of the nodes, if they lie in a hemisphere.
         radius : float, optional
-            Draws only what is so near to the centre, in degrees; at 90 a hemisphere or the whole map.
+            Only what is at most this far from the centre is drawn, in degrees. 90: a hemisphere, or the whole map.
         ax : matplotlib Axes, optional
             Default: a new figure. Axes of cartopy draw in their own projection. Limits set before are kept.
         edgecolor : color, optional
-            Colour of lines; with values they are drawn only if it is given. ``linewidth``: their width in points.
+            Colour of lines. With values, lines are drawn only if it is given.
+        linewidth : float
+            Width of lines in points.
         vmin, vmax : float, optional
             Values at the ends of the colour map.
+        threads : int, optional
+            Number of threads of this call. Default: that of the mesh.
         **style
-            For the artist: cmap, norm, alpha, ...
+            Keywords for the artist: cmap, norm, alpha, ...
 
         Returns
         -------
-        matplotlib.collections.PolyCollection with values, for ``plt.colorbar``; else a LineCollection.
+        matplotlib.collections.PolyCollection or LineCollection
+            With values the polygons, for ``plt.colorbar``; otherwise the lines.
+
+        Raises
+        ------
+        ValueError
+            If an argument is wrong, or values fit neither the nodes nor the triangles.
+
+        Examples
+        --------
+        >>> import matplotlib
+        >>> from pstripack import Delaunay
+        >>> mesh = Delaunay.from_lonlat([0, 10, 0, 30], [40, 45, 50, 50])
+        >>> type(mesh.plot([1, 2, 3, 4], "cells")).__name__
+        'PolyCollection'
         """
         cells = _tables.kind(what, values)
         others = [] if cells else [len(self.simplices)]

@@ -14,23 +14,23 @@ _OUT_OF_MEMORY = -6
 
 
 class Progress(NamedTuple):
-    """The state of a run after a step."""
+    """The state of a run of :func:`scvt` after a step."""
 
-    generators: int  #: number of generators of the level
-    evaluations: int  #: number of evaluations (triangulation and integrals) on this level
-    gradient: float  #: root mean square of the distances to the centroids, in units of sqrt(4 pi / generators)
-    energy: float
+    generators: int  #: Number of generators of the level.
+    evaluations: int  #: Number of evaluations on this level; each triangulates and integrates.
+    gradient: float  #: Root mean square of the distances to the centroids, in units of sqrt(4 pi / generators).
+    energy: float  #: As in Tessellation.
 
 
 class Tessellation(NamedTuple):
     """The result of :func:`scvt`."""
 
-    points: Floats  #: the generators, unit vectors, shape (n, 3)
-    energy: float  #: sum over the cells of the integral of density times the squared distance to the generator
-    gradient: float  #: as in Progress
-    evaluations: float  #: of all levels, each weighted by its generators / n
-    #: "converged", "evaluations", "stopped", "stalled" (the energy falls no further), or "not well centred" (asked for,
-    #: but triangles are left that do not hold their circumcentre)
+    points: Floats  #: The generators, unit vectors, shape (n, 3).
+    energy: float  #: Sum over the cells of the integral of density times the squared distance to the generator.
+    gradient: float  #: As in Progress.
+    evaluations: float  #: Evaluations of all levels, each weighted by its generators / n.
+    #: "converged", "evaluations" (max_evaluations are reached), "stopped" (by progress), "stalled" (the energy falls no
+    #: further), or "not well centred" (triangles are left that do not hold their circumcentre).
     reason: str
 
     def __repr__(self) -> str:
@@ -59,18 +59,19 @@ def scvt(generators: Union[int, ArrayLike, None] = None, density: Optional[Calla
     Parameters
     ----------
     generators : int or array_like, shape (n, 3), optional with ``width``
-        Number of generators, placed by an advancing front or, below 3000, from random ones level by level; or vectors
-        to start from.
+        Number of generators, or vectors to start from. A number of 3000 or more starts from an advancing front, a smaller
+        one from random generators, level by level.
     density : callable, optional
-        Function of unit vectors, shape (m, 3), that returns values of shape (m,): positive, finite, and depending only
-        on the place. Cells are about density**(-1/4) wide. Default: 1 everywhere; only then integrals use threads.
+        Function of unit vectors, shape (m, 3), that returns values of shape (m,). They must be positive and finite, and
+        depend only on the place. The widths of cells are about proportional to ``density**(-1/4)``. Default: 1 everywhere;
+        only then integrals use threads.
     width : callable, optional
         In place of a density: function of unit vectors that returns widths of cells, the distances of neighbours in a
-        mesh of regular hexagons. Without ``generators`` their number is the integral of 1/(sqrt(3)/2 width**2).
+        mesh of regular hexagons. Without ``generators`` their number is the integral of ``1/(sqrt(3)/2 width**2)``.
     radius : float
         Radius of the sphere in the unit of ``width``; by default the Earth's in km.
     well_centred : bool
-        In the end move a few generators so that all triangles hold their circumcentre strictly.
+        Move a few generators in the end, so that each triangle holds its circumcentre strictly.
     tolerance : float
         The run ends when the gradient is at most this.
     method : {"newton", "lloyd"}
@@ -84,12 +85,22 @@ def scvt(generators: Union[int, ArrayLike, None] = None, density: Optional[Calla
     threshold : float, optional
         Generators to start from that are this near to each other, in radians, are refused.
     threads : int, optional
+        Number of threads.
+
+    Returns
+    -------
+    Tessellation
+        The generators, and why the run ended.
 
     Raises
     ------
     ValueError
         If an argument or a density is wrong. Exceptions of ``density`` and ``progress`` are passed on.
 
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from pstripack import scvt
     >>> len(scvt(width=lambda xyz: 1400 - 500 * xyz[:, 2], tolerance=1e-3).points)
     344
     >>> mesh = scvt(200, lambda xyz: 1 + 10 * np.exp(xyz[:, 2]), tolerance=1e-3)

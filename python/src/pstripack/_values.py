@@ -29,7 +29,8 @@ class Values:
     DataFrame of pandas, or a DataArray of xarray. If the mesh has ``labels`` too, the rows are found by them, in any order
     and among others. A DataArray has the nodes in the dimension that is called like the labels, else in the first one."""
 
-    labels: Any = None  #: of the nodes: the index of the table or of the longitudes that they are from; None: none
+    #: Labels of the nodes: the index of the table or of the longitudes that the mesh was made of. None: there are none.
+    labels: Any = None
     _rows: Optional[Rows] = None
 
     def _ordered(self, values: Any, nodes: int, others: Sequence[int] = ()) -> Any:

@@ -22,7 +22,8 @@ class SphericalVoronoi:
     center : array_like, shape (3,), optional
         Centre of the sphere; default: the origin.
     threshold : float, optional
-        Points closer to each other than threshold * radius, or farther than that from the sphere, are refused.
+        Points closer to each other than threshold * radius are refused, and points whose distance from the sphere is more
+        than threshold * radius.
     threads : int, optional
         Number of threads.
 
@@ -33,10 +34,10 @@ class SphericalVoronoi:
     vertices : array, shape (2n - 4, 3)
         Corners of the regions. Where more than three regions meet, several vertices coincide up to rounding.
     regions : list of lists of int
-        The vertices of each region. Unlike scipy's they are always in counterclockwise order, seen from outside.
-        Computed on first access.
+        The vertices of each region, always in counterclockwise order, seen from outside; SciPy's are not. Computed on
+        first access.
     region_vertices : tuple of arrays (indptr, indices)
-        The same as arrays: the vertices of region k are indices[indptr[k]:indptr[k+1]].
+        The vertices of region k are indices[indptr[k]:indptr[k+1]]: faster than ``regions``.
 
     Raises
     ------
@@ -44,6 +45,10 @@ class SphericalVoronoi:
         If there are fewer than four points, all lie in one plane, two coincide, or one is not on the sphere. Messages
         count points from 0; a TriangulationError has their indices in the attribute ``nodes``.
 
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from pstripack import SphericalVoronoi
     >>> corners = np.array([[1, 1, 1], [-1, -1, 1], [-1, 1, -1], [1, -1, -1]]) / np.sqrt(3)
     >>> diagram = SphericalVoronoi(corners)
     >>> diagram.regions
@@ -107,6 +112,7 @@ class SphericalVoronoi:
 
     @property
     def regions(self) -> List[List[int]]:
+        """The vertices of each region."""
         if self._regions is None:
             self._regions = _core.lists_of(*self.region_vertices, 2 * len(self.points) - 4)
         return self._regions
@@ -122,7 +128,19 @@ class SphericalVoronoi:
         """Does nothing: the vertices of each region are always in order."""
 
     def calculate_areas(self) -> Floats:
-        """Areas of the regions; their sum is 4 pi radius**2."""
+        """Areas of the regions.
+
+        Returns
+        -------
+        array, shape (n,)
+            Their sum is ``4 pi radius**2``.
+
+        Examples
+        --------
+        >>> from pstripack import SphericalVoronoi
+        >>> SphericalVoronoi([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, 0, 0], [0, -1, 0], [0, 0, -1]]).calculate_areas()[0]
+        2.09...
+        """
         return self._mesh.cell_areas(self._threads) * self.radius**2
 
     def _check_on_sphere(self, vectors: Floats, threshold: float) -> None:

@@ -27,7 +27,7 @@ extern "C" {
  * that the original has: -1, -2 and numbers above 0, which each routine's page explains. */
 #define PSTRIPACK_CODES(CODE)                                                                              \
   CODE(PSTRIPACK_OK, 0, "success")                                                                         \
-  CODE(PSTRIPACK_TOO_FEW_NODES, -1, "fewer than three nodes; of generators, fewer than four")              \
+  CODE(PSTRIPACK_TOO_FEW_NODES, -1, "fewer than three nodes, or fewer than four generators")               \
   CODE(PSTRIPACK_COLLINEAR, -2,                                                                            \
        "the first three nodes, or all of a distributed mesh, lie on one great circle")                     \
   CODE(PSTRIPACK_EMPTY_MESH, -3, "the mesh is empty, or no exchange of its values is under way")           \
@@ -49,7 +49,7 @@ extern "C" {
   CODE(PSTRIPACK_HEMISPHERE, -12, "the generators lie in one hemisphere")                                  \
   CODE(PSTRIPACK_BAD_LISTS, -13, "the lists are not those of a triangulation of these nodes")              \
   CODE(PSTRIPACK_BAD_OPTION, -14, "an option has a value that is not allowed")                             \
-  CODE(PSTRIPACK_NONE_LEFT, -15, "no node is left that is not in NPTS")                                    \
+  CODE(PSTRIPACK_NONE_LEFT, -15, "all nodes are in NPTS already")                                          \
   CODE(PSTRIPACK_NO_EDGE, -16,                                                                             \
        "the arc cannot be made: nodes lie on it, up to rounding, or triangles overlap")                    \
   CODE(PSTRIPACK_BAD_SIZE, -100, "arrays of different sizes, or too short, or a size below 0")

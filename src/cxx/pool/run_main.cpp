@@ -44,7 +44,7 @@ constexpr const char* kHelp =
     "Runs a serial program that calls STRIPACK's trmesh from libstripack. P MPI ranks carry out its larger\n"
     "calls together; everything else is as without pstripack-run: standard input and output, the exit code.\n"
     "\n"
-    "  -n P, -np P   number of ranks, the one that serves the program included; 1: none\n"
+    "  -n P, -np P   number of ranks, including the one that serves the program; 1: the program runs alone\n"
     "  options       handed to mpirun, for example --oversubscribe or --hostfile FILE; then -- is needed\n"
     "  --help, --version\n"
     "\n"
@@ -112,7 +112,7 @@ Arguments read_arguments(char** argv) {
 std::string path_of_worker() {
   std::string path = pstripack::path_of_this_program();
   if (path.empty())
-    fail("/proc/self/exe: cannot be read, and pstripack-worker not be found: mount /proc", 127);
+    fail("/proc/self/exe cannot be read, so pstripack-worker cannot be found: mount /proc", 127);
   path = path.substr(0, path.rfind('/') + 1) + "pstripack-worker";
   if (access(path.c_str(), X_OK) != 0) fail(path + ": " + std::strerror(errno), 127);
   return path;

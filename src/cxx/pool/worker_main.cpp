@@ -44,7 +44,8 @@ int rank_from_environment() {
 int main(int argc, char** argv) {
   const int rank = rank_from_environment();
   if (argc < 2 || rank < 0) {
-    std::fputs("pstripack-worker: to be started by pstripack-run; see pstripack-run --help\n", stderr);
+    std::fputs("pstripack-worker: only pstripack-run starts this program; see pstripack-run --help\n",
+               stderr);
     return 2;
   }
   static pstripack::Watchdog the_watchdog(rank);

@@ -422,7 +422,7 @@ options)
   refuse 'end with --' -n 2 --oversubscribe true
   refuse 'must come before' --oversubscribe -n 2 -- true
   "$(dirname "$RUN")/pstripack-worker" > worker.out 2>&1 && fail "the worker alone"
-  grep -q 'to be started by pstripack-run' worker.out || fail "the worker alone: message"
+  grep -q 'only pstripack-run starts this program' worker.out || fail "the worker alone: message"
   # One rank: the program itself.
   "$RUN" -n 1 "$CALLER" calls 5000 1 > one.out 2> one.err || fail "-n 1"
   grep -q '^no pool$' one.out || fail "-n 1: a pool"
