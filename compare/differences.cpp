@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
 #include <cstdint>
-#include <iterator>
-#include <numeric>
 #include <optional>
 #include <unordered_map>
 
 #include "determinant.h"
+#include "only_in.h"
 
 namespace comparison {
 namespace {
@@ -22,15 +22,15 @@ using pstripack::Triangles;
 class Arcs {
  public:
   struct Side {
-    index_t triangle, opposite;
+    std::size_t triangle;
+    index_t opposite;
   };
 
   explicit Arcs(const Triangles& triangles) {
     side_.reserve(3 * triangles.size());
     for (std::size_t t = 0; t < triangles.size(); ++t)
       for (int i = 0; i < 3; ++i)
-        side_.emplace(key(triangles[t][i], triangles[t][(i + 1) % 3]),
-                      Side{static_cast<index_t>(t), triangles[t][(i + 2) % 3]});
+        side_.emplace(key(triangles[t][i], triangles[t][(i + 1) % 3]), Side{t, triangles[t][(i + 2) % 3]});
   }
 
   const Side* left_of(index_t u, index_t v) const {
@@ -44,19 +44,6 @@ class Arcs {
     return static_cast<std::uint64_t>(static_cast<std::uint32_t>(u)) << 32 | static_cast<std::uint32_t>(v);
   }
   std::unordered_map<std::uint64_t, Side> side_;
-};
-
-class UnionFind {
- public:
-  explicit UnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  std::size_t find(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void unite(std::size_t i, std::size_t j) { parent_[find(i)] = find(j); }
-
- private:
-  std::vector<std::size_t> parent_;
 };
 
 // Calls f(u, v, triangle) for the three directed arcs of every triangle.
@@ -75,10 +62,8 @@ class Classifier {
       : points_(points), original_(original), ours_(ours), epsilon_(epsilon), show_(show) {}
 
   Differences run() {
-    std::set_difference(original_.triangles.begin(), original_.triangles.end(), ours_.triangles.begin(),
-                        ours_.triangles.end(), std::back_inserter(theirs_only_));
-    std::set_difference(ours_.triangles.begin(), ours_.triangles.end(), original_.triangles.begin(),
-                        original_.triangles.end(), std::back_inserter(ours_only_));
+    theirs_only_ = only_in(original_.triangles, ours_.triangles);
+    ours_only_ = only_in(ours_.triangles, original_.triangles);
     result_.original_triangles = theirs_only_.size();
     result_.our_triangles = ours_only_.size();
     if (result_.none()) return std::move(result_);
@@ -112,17 +97,18 @@ class Classifier {
   // in different meshes on the same side of an arc of both.
   void find_places(const Arcs& theirs, const Arcs& own) {
     const std::size_t offset = theirs_only_.size();
-    UnionFind set(offset + ours_only_.size());
+    boost::disjoint_sets_with_storage<> set(offset + ours_only_.size());
     for_each_side(theirs_only_, [&](index_t u, index_t v, std::size_t t) {
-      if (const auto* same = own.left_of(u, v)) set.unite(t, offset + same->triangle);
-      if (const auto* other = theirs.left_of(v, u); other && !own.has(u, v)) set.unite(t, other->triangle);
+      if (const auto* same = own.left_of(u, v)) set.union_set(t, offset + same->triangle);
+      if (const auto* other = theirs.left_of(v, u); other && !own.has(u, v))
+        set.union_set(t, other->triangle);
     });
     for_each_side(ours_only_, [&](index_t u, index_t v, std::size_t t) {
       if (const auto* other = own.left_of(v, u); other && !theirs.has(u, v))
-        set.unite(offset + t, offset + other->triangle);
+        set.union_set(offset + t, offset + other->triangle);
     });
     place_.resize(offset + ours_only_.size());
-    for (std::size_t t = 0; t < place_.size(); ++t) place_[t] = set.find(t);
+    for (std::size_t t = 0; t < place_.size(); ++t) place_[t] = set.find_set(t);
     cause_of_place_.assign(place_.size(), kUndecided);
   }
 

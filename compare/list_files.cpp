@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
+#include <cstdio>
 #include <fstream>
 #include <memory>
-#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
@@ -24,13 +25,12 @@ class TextReader {
   }
 
   std::optional<Call> next() {
-    std::string word;
-    if (!next_word(word)) return std::nullopt;
+    if (at_end()) return std::nullopt;
     Call call;
     call.number = ++calls_;
-    call.n = number(word, "N", 3, pstripack::most_nodes<std::int32_t>());
-    const auto n = static_cast<std::int32_t>(call.n);
-    const std::int32_t lnew = expect("LNEW", 1, 6 * n - 11);
+    const std::int32_t n = number("N", 3, pstripack::most_nodes<std::int32_t>());
+    const std::int32_t lnew = number("LNEW", 1, 6 * n - 11);
+    call.n = n;
     call.has_returned = true;
     call.nodes = static_cast<std::size_t>(n);
     call.run.lists.lnew = lnew;
@@ -39,25 +39,24 @@ class TextReader {
     read(call.run.lists.lend, "LEND", n);
     // Allocate only now: a wrong N would have been noticed.
     for (Entries* slots : {&call.run.lists.list, &call.run.lists.lptr})
-      slots->resize(6 * static_cast<std::size_t>(n) - 12, kUntouched);
+      slots->resize(6 * call.nodes - 12, kUntouched);
     return call;
   }
 
  private:
   static constexpr std::int32_t kAny = std::numeric_limits<std::int32_t>::max();
 
-  bool next_word(std::string& word) {
-    while (!(fields_ >> word)) {
-      std::string line;
-      if (!std::getline(in_, line)) return false;
-      ++line_;
-      fields_ = std::istringstream(line);
-    }
-    return true;
+  /// Skips blanks.
+  bool at_end() {
+    while (std::isspace(in_.peek()) != 0) line_ += in_.get() == '\n';
+    return in_.peek() == EOF;
   }
 
-  std::int32_t number(const std::string& word, const std::string& what, std::int32_t least,
-                      std::int32_t largest) const {
+  std::int32_t number(const std::string& what, std::int32_t least = -kAny, std::int32_t largest = kAny) {
+    if (at_end())
+      throw std::runtime_error(fmt::format("{}, line {}: the file ends, expected {}", name_, line_, what));
+    std::string word;
+    in_ >> word;
     std::int32_t value = 0;
     const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error != std::errc() || rest != word.data() + word.size() || value < least || value > largest)
@@ -67,21 +66,13 @@ class TextReader {
     return value;
   }
 
-  std::int32_t expect(const std::string& what, std::int32_t least = -kAny, std::int32_t largest = kAny) {
-    std::string word;
-    if (!next_word(word))
-      throw std::runtime_error(fmt::format("{}, line {}: the file ends, expected {}", name_, line_, what));
-    return number(word, what, least, largest);
-  }
-
   void read(Entries& entries, const char* name, std::int32_t count) {
-    for (std::int32_t i = 1; i <= count; ++i) entries.push_back(expect(fmt::format("{}({})", name, i)));
+    for (std::int32_t i = 1; i <= count; ++i) entries.push_back(number(fmt::format("{}({})", name, i)));
   }
 
   std::string name_;
   std::ifstream in_;
-  std::istringstream fields_;
-  std::size_t line_ = 0;
+  std::size_t line_ = 1;
   std::int64_t calls_ = 0;
 };
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -12,6 +11,7 @@
 #include "list_files.h"
 #include "lists/adjacency_lists.h"
 #include "mesh/triangulation.h"
+#include "only_in.h"
 
 namespace comparison {
 namespace {
@@ -43,12 +43,6 @@ MeshOfLists mesh_of(const Call& call) {
     pstripack::make_canonical(mesh.triangles);
   }
   return mesh;
-}
-
-Triangles only_in_first(const Triangles& first, const Triangles& second) {
-  Triangles rest;
-  std::set_difference(first.begin(), first.end(), second.begin(), second.end(), std::back_inserter(rest));
-  return rest;
 }
 
 std::string describe(const Triangles& triangles, const char* where) {
@@ -86,9 +80,8 @@ Pair compare(const Call& a, const Call& b) {
     return {Verdict::different, text};
   }
   if (in_a.triangles == in_b.triangles) return {Verdict::same_triangles, text + "the same triangles"};
-  return {Verdict::different,
-          text + "triangles: " + describe(only_in_first(in_a.triangles, in_b.triangles), "A") + ", " +
-              describe(only_in_first(in_b.triangles, in_a.triangles), "B")};
+  return {Verdict::different, text + "triangles: " + describe(only_in(in_a.triangles, in_b.triangles), "A") +
+                                  ", " + describe(only_in(in_b.triangles, in_a.triangles), "B")};
 }
 
 }  // namespace

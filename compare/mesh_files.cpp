@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
 
 #include "files/nodes.h"
+#include "only_in.h"
 
 namespace comparison {
 namespace {
@@ -59,13 +59,8 @@ MeshComparison compare_meshes(const MeshFiles& a, const MeshFiles& b) {
           std::max(result.largest_distance, std::hypot(p.x - q.x, p.y - q.y, p.z - q.z));
     }
   }
-  const auto count_only_in = [](const pstripack::Triangles& s, const pstripack::Triangles& t) {
-    pstripack::Triangles rest;
-    std::set_difference(s.begin(), s.end(), t.begin(), t.end(), std::back_inserter(rest));
-    return rest.size();
-  };
-  result.only_in_a = count_only_in(a.triangles, b.triangles);
-  result.only_in_b = count_only_in(b.triangles, a.triangles);
+  result.only_in_a = only_in(a.triangles, b.triangles).size();
+  result.only_in_b = only_in(b.triangles, a.triangles).size();
   return result;
 }
 

@@ -89,8 +89,8 @@ std::vector<std::string> broken_promises(const std::vector<Point>& points, const
       }
   }
 
+  const auto touched = [](std::int32_t entry) { return entry != kUntouched; };
   if (run.ier < 0) {
-    const auto touched = [](std::int32_t entry) { return entry != kUntouched; };
     if (std::any_of(lists.list.begin(), lists.list.end(), touched) ||
         std::any_of(lists.lptr.begin(), lists.lptr.end(), touched) ||
         std::any_of(lists.lend.begin(), lists.lend.end(), touched) || touched(lists.lnew))
@@ -107,11 +107,10 @@ std::vector<std::string> broken_promises(const std::vector<Point>& points, const
                                      lists.lnew};
   if (run.is_canonical() && !pstripack::lists_are_canonical(view))
     broken.push_back("our lists are not canonical");
-  const auto untouched = [](std::int32_t entry) { return entry == kUntouched; };
   const std::size_t used = static_cast<std::size_t>(lists.lnew) - 1;
-  if (!std::all_of(lists.list.begin() + used, lists.list.end(), untouched) ||
-      !std::all_of(lists.lptr.begin() + used, lists.lptr.end(), untouched) ||
-      !std::all_of(lists.lend.begin() + checked.nodes, lists.lend.end(), untouched))
+  if (std::any_of(lists.list.begin() + used, lists.list.end(), touched) ||
+      std::any_of(lists.lptr.begin() + used, lists.lptr.end(), touched) ||
+      std::any_of(lists.lend.begin() + checked.nodes, lists.lend.end(), touched))
     broken.push_back("a slot outside 1..LNEW-1, or an entry of LEND beyond the last node, was written");
   return broken;
 }

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <iterator>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
+#include "only_in.h"
 #include "point_sets.h"
 
 namespace comparison {
@@ -96,12 +96,6 @@ std::vector<Arc> arcs_in_view(const Triangles& triangles, const View& view) {
   std::sort(arcs.begin(), arcs.end());
   arcs.erase(std::unique(arcs.begin(), arcs.end()), arcs.end());
   return arcs;
-}
-
-std::vector<Arc> without(const std::vector<Arc>& a, const std::vector<Arc>& b) {
-  std::vector<Arc> rest;
-  std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(rest));
-  return rest;
 }
 
 /// Adds an arc in pieces short enough to show its curvature.
@@ -237,7 +231,7 @@ void Plot::add(const Result& result, const std::vector<Point>& points) {
     const std::vector<Arc> ours = arcs_in_view(result.ours_checked.triangles, view);
     const std::string circle = deciding_circle(decision.nodes, view);
     const auto content = [&](const std::vector<Arc>& own, const std::vector<Arc>& other, const char* kind) {
-      return drawn(own, view, "arc") + circle + drawn(without(own, other), view, kind) +
+      return drawn(own, view, "arc") + circle + drawn(only_in(own, other), view, kind) +
              numbers(own, decision.nodes, view);
     };
     const double y = kMargin + static_cast<double>(rows_) * kRow;

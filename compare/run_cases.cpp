@@ -12,7 +12,7 @@
 #include "case_files.h"
 #include "json_files.h"
 #include "lists/limits.h"
-#include "node_sets.h"
+#include "orders.h"
 #include "original.h"
 #include "picture_of_differences.h"
 #include "point_sets.h"
@@ -39,7 +39,8 @@ struct Source {
 std::vector<Source> sources_of(const RunOptions& options) {
   std::vector<Source> sources;
   const auto add_file = [&](const std::string& file) {
-    sources.push_back({std::filesystem::path(file).filename().string(), read_nodes(file, options.read)});
+    sources.push_back(
+        {std::filesystem::path(file).filename().string(), files::read(file, options.read).points});
     if (const std::size_t n = sources.back().read.size(); n < 3)
       throw std::runtime_error(
           fmt::format("{}: a triangulation needs at least 3 nodes, here are {}", file, n));
@@ -130,7 +131,8 @@ ExitCode run(const RunOptions& options) {
         const auto start = Clock::now();
         std::vector<Point> points = source.nodes(options);
         put_in_order(points, order, options.seed);
-        if (precision == "r4") round_to_single(points);
+        if (precision == "r4")
+          for (Point& p : points) p = point_sets::rounded_to_single(p);
 
         legacy_stripack::Triangulation theirs =
             original.triangulate(points, options.timeout, options.repeats);

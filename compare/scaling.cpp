@@ -43,7 +43,7 @@ namespace {
 using namespace pstripack;
 using Phase = ParallelCost::Phase;
 
-const std::string kMoving = "moving";  ///< a table and a mode of its own
+const std::string kMoving = "moving";  ///< a mode with a table of its own
 const std::string kScvt = "scvt";      ///< a mode: an evaluation of centroidal tessellations
 /// This mode has no gathering; the column shows the integrals instead.
 constexpr Phase kIntegrate = Phase::gather;
@@ -392,14 +392,12 @@ void show(const Row& r) {
   std::fflush(stdout);
 }
 
-const std::vector<std::string> kModes{"distributed", "pool", "messages"};
-const std::vector<std::string> kAllModes{"distributed", "pool", "messages", kScvt};
-const std::vector<std::string> kKinds{"constant-n", kMoving};
+const std::vector<std::string> kModes{"distributed", "pool", "messages", kScvt, kMoving};
 
 struct Tables {
   std::vector<int> ranks{1, 2, 4, 8, 16, 32, 64};
   std::vector<std::size_t> sizes{10000, 100000, 1000000};
-  std::vector<std::string> modes = kModes, kinds{kKinds.front()};
+  std::vector<std::string> modes{kModes.begin(), kModes.begin() + 3};
 };
 
 /// Runs warm and cold calls in turn, so that disturbances affect both. Prints the least time of all calls.
@@ -448,27 +446,25 @@ void print_tables(const std::string& self, Settings s, const Tables& t) {
       "move by Lloyd's method, after\nthose of a front; serial: the same on one thread; cells: integrals and "
       "sums.\n",
       sysconf(_SC_NPROCESSORS_ONLN));
-  for (const std::string& kind : t.kinds) {
-    if (kind == kMoving) {
+  for (const std::string& mode : t.modes) {
+    if (mode == kMoving) {
       print_moving(self, s, t);
       continue;
     }
-    for (const std::string& mode : t.modes) {
-      s.mode = mode;
-      s.warm = mode == kScvt;
-      fmt::print("\n{}, {}, constant N\n",
-                 mode == "pool"       ? "pool on one machine, arrays and lists in rank 0's memory"
-                 : mode == "messages" ? "pool on several machines, arrays and lists sent from and to rank 0"
-                 : mode == kScvt      ? "scvt, generators at home"
-                                      : "distributed, points at home",
-                 mode == kScvt ? "density 1" : s.family);
-      head(mode == kScvt);
-      for (const std::size_t n : t.sizes)
-        for (const int p : t.ranks) {
-          s.n = n;
-          show(measure(self, s, p));
-        }
-    }
+    s.mode = mode;
+    s.warm = mode == kScvt;
+    fmt::print("\n{}, {}, constant N\n",
+               mode == "pool"       ? "pool on one machine, arrays and lists in rank 0's memory"
+               : mode == "messages" ? "pool on several machines, arrays and lists sent from and to rank 0"
+               : mode == kScvt      ? "scvt, generators at home"
+                                    : "distributed, points at home",
+               mode == kScvt ? "density 1" : s.family);
+    head(mode == kScvt);
+    for (const std::size_t n : t.sizes)
+      for (const int p : t.ranks) {
+        s.n = n;
+        show(measure(self, s, p));
+      }
   }
 }
 
@@ -487,18 +483,14 @@ int main(int argc, char** argv) {
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   app.add_option("--change", s.change,
-                 "with --tables moving: part of the points that change ranks before each call")
+                 "with --modes moving: part of the points that change ranks before each call")
       ->check(number_in(0, 1));
-  app.add_option("--modes", t.modes, "only tables of these modes; `scvt` runs only if named")
+  app.add_option("--modes", t.modes, "only tables of these modes; `scvt` and `moving` run only if named")
       ->delimiter(',')
-      ->check(CLI::IsMember(kAllModes))
-      ->capture_default_str();
-  app.add_option("--tables", t.kinds, "only tables of these kinds")
-      ->delimiter(',')
-      ->check(CLI::IsMember(kKinds))
+      ->check(CLI::IsMember(kModes))
       ->capture_default_str();
   app.add_option("--mode", s.mode, "no tables: one run of this mode on the ranks of this mpirun")
-      ->check(CLI::IsMember(std::vector<std::string>{"distributed", "pool", "messages", kScvt, kMoving}));
+      ->check(CLI::IsMember(kModes));
   app.add_option("--n", s.n, "nodes of that run")->capture_default_str();
   try {
     app.parse(argc, argv);

@@ -26,7 +26,6 @@
 #include "measuring.h"
 #include "model.h"
 #include "number_in.h"
-#include "orders.h"
 #include "original.h"
 #include "point_sets.h"
 #include "pstripack.h"
@@ -68,7 +67,6 @@ int main(int argc, char** argv) {
                "pstripack-benchmark");
   app.footer("cases: " + CLI::detail::join(case_names(), " "));
   CaseSettings cases;
-  app.add_flag("--quick", cases.quick, "only cases with fewer than 10^6 nodes, three repeats");
   app.add_option(
          "--only", cases.only,
          "only these cases, for example random-1e4,latlon-1e5; those from `warm-start` on run only if "
@@ -92,10 +90,10 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   curves_app
       .add_option("--orders", curves.orders,
-                  "given: as the point set makes them; shuffled; latitude: south to north;\n"
+                  "given: as the point set makes them; shuffled; sorted: south to north;\n"
                   "rows: south to north in rows along the longitude, as grids are numbered")
       ->delimiter(',')
-      ->check(CLI::IsMember(orders()))
+      ->check(CLI::IsMember(std::vector<std::string>{"given", "shuffled", "sorted", "rows"}))
       ->capture_default_str();
   curves_app.add_option("--sizes", curves.sizes, "numbers of nodes, increasing")
       ->delimiter(',')
@@ -136,8 +134,6 @@ int main(int argc, char** argv) {
     // Calls with the same nodes must not reuse the last mesh: measure first calls.
     setenv("PSTRIPACK_WARM_START", "0", 1);
     if (model.calls > 0) return be_the_model(model);
-    for (int* const repeats : {&cases.repeats, &curves.repeats})
-      if (*repeats == 0) *repeats = cases.quick ? 3 : 7;
 #ifdef _OPENMP
     omp_set_num_threads(1);
 #endif

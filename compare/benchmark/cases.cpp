@@ -24,8 +24,6 @@ namespace {
 using legacy_stripack::Outcome;
 using pstripack::Point;
 
-enum class Routine { trmesh, trlist, crlist };
-
 struct Case {
   std::string name;
   Routine routine;
@@ -54,39 +52,6 @@ const std::vector<Case> kCases{
     {"order-bitwise-1e5", Routine::trmesh, "latlon", "given", 100000, false, false, "bitwise"},
 };
 
-Lists lists_from(const Stripack& library, const Nodes& nodes) {
-  Lists lists(nodes.n());
-  library.trmesh(nodes, lists);
-  return lists;
-}
-
-/// Seconds of one call of the case's routine, in its own process. `lists`: for routines that read a
-/// triangulation.
-double measure_call(const Case& c, const Stripack& library, const Nodes& nodes,
-                    const std::shared_ptr<Lists>& lists, int calls) {
-  return measured([&] {
-    const int n = nodes.n();
-    const std::size_t triangles = 2 * std::size_t(n) - 4;
-    switch (c.routine) {
-      case Routine::trmesh: {
-        Lists own(n);
-        return seconds_a_call([&] { library.trmesh(nodes, own); }, calls);
-      }
-      case Routine::trlist: {
-        constexpr int rows = 9;
-        std::vector<int> ltri(static_cast<std::size_t>(rows) * triangles);
-        return seconds_a_call([&] { library.trlist(n, *lists, rows, ltri); }, calls);
-      }
-      case Routine::crlist: {
-        std::vector<int> listc(3 * triangles);
-        std::vector<double> centres(4 * triangles);
-        return seconds_a_call([&] { library.crlist(nodes, *lists, listc, centres); }, calls);
-      }
-    }
-    throw std::logic_error("unknown routine");
-  });
-}
-
 /// The original's lists for these nodes, made in a process of their own.
 std::shared_ptr<Lists> lists_of_original(const legacy_stripack::Original& original, const Nodes& nodes) {
   constexpr double kTimeLimit = 1800;
@@ -108,15 +73,12 @@ double peak_bytes_a_node(const Nodes& nodes) {
   });
 }
 
-std::string ratio(const Samples& theirs, const Samples& own) {
-  return theirs.empty() ? "-" : fmt::format("{:.2f}", theirs.median() / own.median());
-}
-
 void run(const Case& c, const std::string& self, const std::optional<legacy_stripack::Original>& if_any,
          int repeats) {
   const std::optional<legacy_stripack::Original> none;
   const auto& original_library = c.takes_the_original_minutes ? none : if_any;
-  const std::vector<Point> points = nodes_in_order(c.family, static_cast<std::size_t>(c.n), c.order);
+  const std::vector<Point> points =
+      comparison::nodes_in_order(c.family, static_cast<std::size_t>(c.n), c.order);
   const Nodes nodes(points);
   const int calls = std::max(1, 200000 / nodes.n());
 
@@ -126,10 +88,14 @@ void run(const Case& c, const std::string& self, const std::optional<legacy_stri
 
   std::shared_ptr<Lists> own_lists, theirs_lists;
   if (c.routine != Routine::trmesh) {
-    own_lists = std::make_shared<Lists>(lists_from(own_library, nodes));
+    own_lists = std::make_shared<Lists>(nodes.n());
+    own_library.trmesh(nodes, *own_lists);
     if (original_library) theirs_lists = lists_of_original(*original_library, nodes);
   }
 
+  const auto measured_call = [&](const Stripack& library, const std::shared_ptr<Lists>& lists) {
+    return measured([&] { return seconds_a_call(c.routine, library, nodes, lists.get(), calls); });
+  };
   Samples own, theirs, by_cgal, by_qhull;
   const auto witness_turn = [&](const Witness& witness, Samples& samples) {
     if (c.has_witnesses && witness.seconds != nullptr && !samples.enough(repeats))
@@ -138,7 +104,7 @@ void run(const Case& c, const std::string& self, const std::optional<legacy_stri
   // A process reads PSTRIPACK_ORDER once, so each setting is measured in a model of its own.
   double peak = c.routine == Routine::trmesh && nodes.n() >= 100000 ? peak_bytes_a_node(nodes) : 0;
   const auto own_turn = [&] {
-    if (c.setting.empty()) return measure_call(c, own_library, nodes, own_lists, calls);
+    if (c.setting.empty()) return measured_call(own_library, own_lists);
     const ModelFigures figures =
         as_model(self, "OMP_NUM_THREADS=1 PSTRIPACK_ORDER=" + c.setting, {c.family, c.order, c.n, calls});
     peak = figures.peak;
@@ -146,8 +112,7 @@ void run(const Case& c, const std::string& self, const std::optional<legacy_stri
   };
   while (!own.enough(repeats) || (original_library && !theirs.enough(repeats))) {
     if (!own.enough(repeats)) own.add(own_turn());
-    if (original_library && !theirs.enough(repeats))
-      theirs.add(measure_call(c, theirs_library, nodes, theirs_lists, calls));
+    if (original_library && !theirs.enough(repeats)) theirs.add(measured_call(theirs_library, theirs_lists));
     witness_turn(cgal, by_cgal);
     witness_turn(qhull, by_qhull);
   }
@@ -181,7 +146,7 @@ Table table_of_queries(const std::string& name, int n) {
 
 const std::vector<Table> kTables{
     {"warm-start", [](const Call& c) { run_time_of_warm_starts(c.self, c.settings.repeats); }},
-    {"scvt", [](const Call& c) { run_time_of_scvt(c.settings.quick); }},
+    {"scvt", [](const Call&) { run_time_of_scvt(); }},
     {"threads", [](const Call& c) { run_time_of_threads(c.self, c.settings.repeats); }},
     {"busy", [](const Call& c) { run_time_of_threads_on_busy_machine(c.self, c.settings.repeats); }},
     {"first-call",
@@ -191,9 +156,7 @@ const std::vector<Table> kTables{
     {"first-call-1e8", [](const Call& c) { run_time_of_first_calls(c.self, {100000000}, 1); }},
     {"thread-counts", [](const Call& c) { run_scaling_of_threads(c.self, c.settings.repeats); }},
     {"distributions", [](const Call& c) { run_time_of_distributions(c.settings.sets, c.settings.repeats); }},
-    table_of_queries("queries-1e3", 1000),
     table_of_queries("queries-1e4", 10000),
-    table_of_queries("queries-1e5", 100000),
     table_of_queries("queries-1e6", 1000000),
 };
 
@@ -221,11 +184,8 @@ void run_cases(const std::string& self, const CaseSettings& settings,
              "original / ours", "CGAL / ours", "Qhull / ours", "peak");
   fmt::print("{:<17} {:>8} {:>9} {:>9} {:>9} {:>9} {:>15} {:>11} {:>12} {:>9}\n", "case", "N", "ours",
              "original", "CGAL", "Qhull", "", "", "", "bytes/N");
-  const auto is_chosen = [&](const std::string& name, int n) {
-    return only.empty() ? !settings.quick || n < 1000000 : is_named(name);
-  };
   for (const Case& c : kCases) {
-    if (!is_chosen(c.name, c.n)) continue;
+    if (!only.empty() && !is_named(c.name)) continue;
     try {
       run(c, self, original_library, settings.repeats);
     } catch (const std::exception& e) {

@@ -10,11 +10,9 @@
 namespace benchmark {
 
 struct CaseSettings {
-  bool quick = false;
-  std::vector<std::string> only;  ///< none: all cases with a row in the standard table; with `quick` only
-                                  ///< those of fewer than 10^6 nodes
+  std::vector<std::string> only;  ///< none: all cases with a row in the standard table
   std::vector<std::string> sets;  ///< point sets of the case distributions; none: all
-  int repeats = 0;
+  int repeats = 7;
 };
 
 std::vector<std::string> case_names();

@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 
+#include "measuring.h"
+
 #ifdef BENCHMARK_WITH_CGAL
 #include "cgal_contender.h"
 #endif
@@ -80,6 +82,23 @@ const Witness qhull{
 #else
 const Witness qhull{"none found", nullptr};
 #endif
+
+double seconds_a_call(Routine routine, const Stripack& library, const Nodes& nodes, Lists* lists, int calls) {
+  const int n = nodes.n();
+  const std::size_t triangles = 2 * std::size_t(n) - 4;
+  if (routine == Routine::trmesh) {
+    Lists own(n);
+    return seconds_a_call([&] { library.trmesh(nodes, own); }, calls);
+  }
+  if (routine == Routine::trlist) {
+    constexpr int rows = 9;
+    std::vector<int> ltri(static_cast<std::size_t>(rows) * triangles);
+    return seconds_a_call([&] { library.trlist(n, *lists, rows, ltri); }, calls);
+  }
+  std::vector<int> listc(3 * triangles);
+  std::vector<double> centres(4 * triangles);
+  return seconds_a_call([&] { library.crlist(nodes, *lists, listc, centres); }, calls);
+}
 
 double seconds_a_call(const Witness& witness, const std::vector<Point>& points, int calls) {
   const auto call = [&] {

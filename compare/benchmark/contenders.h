@@ -35,6 +35,12 @@ struct Stripack {
   std::function<void(const Nodes&, Lists&, std::vector<int>& listc, std::vector<double>& centres)> crlist;
 };
 
+enum class Routine { trmesh, trlist, crlist };
+
+/// Works like seconds_a_call of measuring.h, into arrays of its own. `lists`: what the routine reads, not for
+/// TRMESH.
+double seconds_a_call(Routine routine, const Stripack& library, const Nodes& nodes, Lists* lists, int calls);
+
 Stripack ours();
 Stripack original(const legacy_stripack::Library& library);
 /// A library that triangulates without writing lists.

@@ -23,7 +23,7 @@ struct Task {
   Task(const std::string& points_, const std::string& order_, int wanted)
       : points(points_),
         order(order_),
-        nodes(nodes_in_order(points, static_cast<std::size_t>(wanted), order)),
+        nodes(comparison::nodes_in_order(points, static_cast<std::size_t>(wanted), order)),
         calls(std::max(1, 200000 / nodes.n())) {}
   const std::string& points;
   const std::string& order;
@@ -41,10 +41,7 @@ struct Contender {
 Contender stripack_contender(const std::string& name, double bytes_a_node, const Stripack& library) {
   return {name, 1, bytes_a_node, [library](const Task& task, double time_limit) {
             return measure(
-                [&] {
-                  Lists lists(task.nodes.n());
-                  return seconds_a_call([&] { library.trmesh(task.nodes, lists); }, task.calls);
-                },
+                [&] { return seconds_a_call(Routine::trmesh, library, task.nodes, nullptr, task.calls); },
                 time_limit);
           }};
 }
@@ -72,17 +69,6 @@ struct Course {
   std::string ended;  ///< the reason why larger sizes are skipped; empty: none
 };
 
-std::string reason(Outcome outcome, int n, double time_limit) {
-  switch (outcome) {
-    case Outcome::timed_out:
-      return fmt::format("over {:g} s at N = {}", time_limit, n);
-    case Outcome::crashed:
-      return fmt::format("crashed at N = {}", n);
-    default:
-      return fmt::format("failed at N = {}", n);
-  }
-}
-
 /// Measures the contenders in turn until each has enough samples or is to be skipped.
 void measure_all(std::vector<Course>& courses, const Task& task, const CurveSettings& settings) {
   const auto wants_turn = [&](const Course& c) {
@@ -102,12 +88,10 @@ void measure_all(std::vector<Course>& courses, const Task& task, const CurveSett
       if (m.outcome == Outcome::returned)
         c.samples.add(m.seconds);
       else
-        c.ended = reason(m.outcome, n, settings.time_limit);
+        c.ended =
+            (m.outcome == Outcome::timed_out ? fmt::format("over {:g} s", settings.time_limit) : "failed") +
+            fmt::format(" at N = {}", n);
     }
-}
-
-std::string ratio(const Samples& theirs, const Samples& first) {
-  return theirs.empty() || first.empty() ? "-" : fmt::format("{:.2f}", theirs.median() / first.median());
 }
 
 std::vector<Contender> contenders(const std::string& self, const std::vector<std::string>& wanted,

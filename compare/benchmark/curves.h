@@ -11,11 +11,11 @@ namespace benchmark {
 
 struct CurveSettings {
   std::string points = "random";
-  std::vector<std::string> orders{"given", "latitude", "rows"};
+  std::vector<std::string> orders{"given", "sorted", "rows"};
   std::vector<int> sizes{100, 1000, 10000, 100000, 1000000, 10000000};
   std::vector<std::string> contenders;  ///< none: all of contender_names()
   double time_limit = 60;               ///< limit of one measurement in seconds
-  int repeats = 0;
+  int repeats = 7;
 };
 
 const std::vector<std::string>& contender_names();

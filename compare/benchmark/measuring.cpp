@@ -52,14 +52,12 @@ bool Samples::enough(int repeats) const {
   return static_cast<int>(seconds_.size()) >= std::min(repeats, most);
 }
 
-double Samples::median() const {
-  std::vector<double> s = seconds_;
-  std::sort(s.begin(), s.end());
-  return s.size() % 2 ? s[s.size() / 2] : (s[s.size() / 2 - 1] + s[s.size() / 2]) / 2;
-}
-
 std::string microseconds(const Samples& samples, int n) {
   return samples.empty() ? "-" : fmt::format("{:.4f}", 1e6 * samples.median() / n);
+}
+
+std::string ratio(const Samples& a, const Samples& b) {
+  return a.empty() || b.empty() ? "-" : fmt::format("{:.2f}", a.median() / b.median());
 }
 
 double peak_bytes(const std::function<void()>& call) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "child_process.h"
+#include "median.h"
 
 namespace benchmark {
 
@@ -35,8 +36,7 @@ class Samples {
   /// Fewer repeats of slow calls: at most three above 2 s, one above 30 s.
   bool enough(int repeats) const;
   bool empty() const { return seconds_.empty(); }
-  std::size_t size() const { return seconds_.size(); }
-  double median() const;
+  double median() const { return ::median(seconds_); }
 
  private:
   std::vector<double> seconds_;
@@ -44,6 +44,9 @@ class Samples {
 
 /// "0.2345"; "-" if there are no samples.
 std::string microseconds(const Samples& samples, int n);
+
+/// Of the medians; "-" if there are no samples.
+std::string ratio(const Samples& a, const Samples& b);
 
 /// Peak memory of `call` in bytes, for which this process must have called nothing before that keeps memory.
 /// What it held before, with all arrays written, is subtracted.

@@ -21,7 +21,7 @@ namespace {
 
 /// The nodes of each call are those of the first with other axes, written just before the pause.
 double median_with_pauses(const Model& model) {
-  const Nodes first(nodes_in_order(model.points, static_cast<std::size_t>(model.n), model.order));
+  const Nodes first(comparison::nodes_in_order(model.points, static_cast<std::size_t>(model.n), model.order));
   const Stripack library = ours();
   Lists lists(first.n());
   Samples samples;
@@ -61,7 +61,7 @@ ModelFigures first_call(const Model& model) {
   std::vector<double> x, y, z;
   for (std::vector<double>* const v : {&x, &y, &z}) v->reserve(static_cast<std::size_t>(model.n));
   for (const pstripack::Point& p :
-       nodes_in_order(model.points, static_cast<std::size_t>(model.n), model.order))
+       comparison::nodes_in_order(model.points, static_cast<std::size_t>(model.n), model.order))
     x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
   const auto array = [](std::size_t n) { return std::unique_ptr<int[]>(new int[n]); };
   const std::size_t slots = 6 * x.size() - 12;
@@ -74,26 +74,13 @@ ModelFigures first_call(const Model& model) {
   return {seconds, bytes_in("/proc/self/status", "VmHWM:") / model.n};
 }
 
-/// The median of all but the first call, for which the system clears pages.
-double median_of_calls(const Model& model) {
-  const Nodes nodes(nodes_in_order(model.points, static_cast<std::size_t>(model.n), model.order));
+double seconds_of_reading(const Model& model) {
+  const Nodes nodes(comparison::nodes_in_order(model.points, static_cast<std::size_t>(model.n), model.order));
   const Stripack library = ours();
   Lists lists(model.n);
   library.trmesh(nodes, lists);
-  const std::size_t triangles = 2 * nodes.all.size() - 4;
-  std::vector<int> numbers(9 * triangles);
-  std::vector<double> centres(4 * triangles);
-  Samples samples;
-  for (int call = 0; call <= model.calls; ++call) {
-    const double seconds = seconds_of([&] {
-      if (model.work == Work::trlist)
-        library.trlist(model.n, lists, 9, numbers);
-      else
-        library.crlist(nodes, lists, numbers, centres);
-    });
-    if (call > 0) samples.add(seconds);
-  }
-  return samples.median();
+  return seconds_a_call(model.work == Work::trlist ? Routine::trlist : Routine::crlist, library, nodes,
+                        &lists, model.calls);
 }
 
 }  // namespace
@@ -106,10 +93,10 @@ int be_the_model(const Model& model) {
   }
   if (model.work != Work::trmesh) {
     const bool is_scvt = model.work == Work::scvt || model.work == Work::widths;
-    fmt::print("{} 0\n", is_scvt ? seconds_of_scvt(model) : median_of_calls(model));
+    fmt::print("{} 0\n", is_scvt ? seconds_of_scvt(model) : seconds_of_reading(model));
     return 0;
   }
-  const Nodes nodes(nodes_in_order(model.points, static_cast<std::size_t>(model.n), model.order));
+  const Nodes nodes(comparison::nodes_in_order(model.points, static_cast<std::size_t>(model.n), model.order));
   const Stripack library = ours();
   Lists lists(nodes.n());
   std::optional<double> peak;

@@ -47,9 +47,7 @@ Nodes with_a_triangle_first(std::vector<pstripack::Point> points) {
 std::optional<double> seconds_a_node(const Nodes& nodes) {
   const Measurement m = measure(
       [&] {
-        Lists lists(nodes.n());
-        const Stripack library = ours();
-        return seconds_a_call([&] { library.trmesh(nodes, lists); }, std::max(1, 200000 / nodes.n()));
+        return seconds_a_call(Routine::trmesh, ours(), nodes, nullptr, std::max(1, 200000 / nodes.n()));
       },
       kTimeLimit);
   if (m.outcome == Outcome::timed_out) return std::nullopt;
@@ -74,7 +72,8 @@ void print_row(const Row& row, const std::vector<Nodes>& randoms, int repeats) {
   fmt::print("{:<19} {:<9}", row.family, row.order);
   for (std::size_t i = 0; i < std::size(kSizes); ++i) {
     std::fflush(stdout);
-    const std::vector<pstripack::Point> points = nodes_in_order(row.family, kSizes[i].n, row.order);
+    const std::vector<pstripack::Point> points =
+        comparison::nodes_in_order(row.family, kSizes[i].n, row.order);
     if (points.size() < kSizes[i].n * 9 / 10) {
       fmt::print("{:>8}", "few");
       break;
@@ -92,11 +91,11 @@ void run_time_of_distributions(const std::vector<std::string>& only, int repeats
   std::vector<Row> rows;
   for (const std::string& family : only) rows.push_back({family});
   if (only.empty()) {
-    for (const std::string& order : orders()) rows.push_back({"random", order});
+    for (const char* order : {"given", "shuffled", "sorted", "rows"}) rows.push_back({"random", order});
     for (const point_sets::Distribution& d : point_sets::distributions()) rows.push_back({d.name});
   }
   std::vector<Nodes> randoms;
-  for (const Size& size : kSizes) randoms.emplace_back(nodes_in_order("random", size.n, "given"));
+  for (const Size& size : kSizes) randoms.emplace_back(comparison::nodes_in_order("random", size.n, "given"));
   fmt::print("\ntime of TRMESH over that of as many random nodes, in turn\n\n{:<19} {:<9}", "nodes", "order");
   for (const Size& size : kSizes) fmt::print("{:>8}", size.name);
   fmt::print("\n");

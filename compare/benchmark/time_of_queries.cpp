@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <functional>
 #include <limits>
 #include <stdexcept>
@@ -15,6 +14,7 @@
 #include "child_process.h"
 #include "contenders.h"
 #include "orders.h"
+#include "parallel/cost.h"
 #include "point_sets.h"
 
 extern "C" {  // libstripack, as a Fortran program calls it
@@ -46,11 +46,7 @@ Routine* found(const legacy_stripack::Library& library, const char* name) {
   return reinterpret_cast<Routine*>(symbol);
 }
 
-double thread_seconds() {
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
+double thread_seconds() { return pstripack::clock_seconds(CLOCK_THREAD_CPUTIME_ID); }
 
 /// Both libraries answer the same questions about the same lists in turn, in a process of their own. The
 /// smallest time of each counts.
@@ -86,11 +82,6 @@ class Table {
   Queries own_, theirs_;
   int repeats_;
 };
-
-Point unit(const Point& p) {
-  const double length = std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
-  return {p.x / length, p.y / length, p.z / length};
-}
 
 void next_nearest(const Table& table, const Nodes& nodes, Lists& lists) {
   constexpr int most = 64;
@@ -147,8 +138,8 @@ void searches(const Table& table, const Nodes& nodes, const Lists& lists) {
     node.push_back(1 + static_cast<int>((i * 7919) % static_cast<std::size_t>(n)));
     const Point& at = nodes.all[static_cast<std::size_t>(node[i] - 1)];
     const double step = 2 / std::sqrt(n);
-    beside.push_back(
-        unit({at.x + step * anywhere[i].x, at.y + step * anywhere[i].y, at.z + step * anywhere[i].z}));
+    beside.push_back(point_sets::normalized(
+        {at.x + step * anywhere[i].x, at.y + step * anywhere[i].y, at.z + step * anywhere[i].z}));
   }
   const auto rows = [&](const std::string& name, const auto& search) {
     table.row(name + ", from a node near by", many, [&](const Queries& q) {
@@ -183,7 +174,7 @@ void run_time_of_queries(int n, const legacy_stripack::Original& original, int r
       "{:>19}\n{:<38} {:>9} {:>9} {:>9}\n",
       n, repeats, "", "nanoseconds a call", "", "ours", "original", "ratio");
   std::fflush(stdout);
-  const Nodes nodes(nodes_in_order("random", static_cast<std::size_t>(n), "given"));
+  const Nodes nodes(comparison::nodes_in_order("random", static_cast<std::size_t>(n), "given"));
   Lists lists(nodes.n());
   ours().trmesh(nodes, lists);
   const Table table(own, theirs, repeats);

@@ -1,7 +1,6 @@
 #include "time_of_scvt.h"
 
 #include <fmt/format.h>
-#include <time.h>
 
 #include <cmath>
 #include <cstdio>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "measuring.h"
+#include "parallel/cost.h"
 #include "scvt/first_generators.h"
 #include "scvt/front.h"
 #include "scvt/tessellation.h"
@@ -34,12 +34,7 @@ std::unique_ptr<Density> density_called(const std::string& name) {
   return std::make_unique<BumpDensity>(centre, 30 * kDegree, 10 * kDegree, 3);  // bump of `pstripack scvt`
 }
 
-/// Processor seconds of the calling thread.
-double cpu_seconds() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
+double cpu_seconds() { return pstripack::clock_seconds(CLOCK_PROCESS_CPUTIME_ID); }
 
 Tessellation descend(std::size_t n, const Density& density, First first, RunOptions options) {
   options.levels = first == First::levels;
@@ -57,23 +52,6 @@ void in_its_own_process(const std::function<void()>& work) {
 }
 
 // ---- whole runs -------------------------------------------------------------------------------------
-
-struct Row {
-  const char* density;
-  std::size_t n;
-  First first;
-  double tolerance;
-};
-
-const std::vector<Row> kRows{
-    {"constant", 10242, First::front, 1e-5},   {"constant", 10242, First::levels, 1e-5},
-    {"constant", 10242, First::random, 1e-5},  {"constant", 163842, First::front, 1e-5},
-    {"constant", 163842, First::levels, 1e-5}, {"constant", 163842, First::random, 1e-5},
-    {"bump", 10242, First::front, 1e-4},       {"bump", 10242, First::levels, 1e-4},
-    {"bump", 10242, First::random, 1e-4},      {"bump", 163842, First::front, 1e-4},
-    {"bump", 163842, First::levels, 1e-4},     {"bump", 163842, First::random, 1e-4},
-};
-bool is_quick(const Row& row) { return row.n < 20000 && row.first != First::random; }
 
 struct Found {
   double evaluations, gradient, energy, seconds;
@@ -96,21 +74,22 @@ Found found_by(const std::string& density_name, std::size_t n, First first, doub
 
 }  // namespace
 
-void run_time_of_scvt(bool quick) {
+void run_time_of_scvt() {
   fmt::print(
       "\nCentroidal tessellations on one thread, to a gradient. evaluations: of all N cells; those of levels "
       "by "
       "their share\nof N. energy N: a lattice of regular hexagons would have 25.3255, density 1\n\n"
       "{:<10} {:>8} {:<7} {:>9} {:>11} {:>9} {:>10} {:>12}\n",
       "density", "N", "first", "gradient", "evaluations", "reached", "energy N", "cpu seconds");
-  for (const Row& row : kRows) {
-    if (quick && !is_quick(row)) continue;
-    const Found f = found_by(row.density, row.n, row.first, row.tolerance);
-    fmt::print("{:<10} {:>8} {:<7} {:>9.0e} {:>11.1f} {:>9.2e} {:>10.4f} {:>12.1f}{}\n", row.density, row.n,
-               name_of(row.first), row.tolerance, f.evaluations, f.gradient,
-               f.energy * static_cast<double>(row.n), f.seconds, f.has_converged ? "" : " NOT converged");
-    std::fflush(stdout);
-  }
+  for (const auto& [density, tolerance] : {std::pair("constant", 1e-5), {"bump", 1e-4}})
+    for (const std::size_t n : {10242, 163842})
+      for (const First first : {First::front, First::levels, First::random}) {
+        const Found f = found_by(density, n, first, tolerance);
+        fmt::print("{:<10} {:>8} {:<7} {:>9.0e} {:>11.1f} {:>9.2e} {:>10.4f} {:>12.1f}{}\n", density, n,
+                   name_of(first), tolerance, f.evaluations, f.gradient, f.energy * static_cast<double>(n),
+                   f.seconds, f.has_converged ? "" : " NOT converged");
+        std::fflush(stdout);
+      }
 }
 
 void run_descents(const DescentSettings& settings) {

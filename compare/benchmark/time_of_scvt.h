@@ -3,8 +3,8 @@
 
 namespace benchmark {
 
-/// Writes to stdout. `quick`: only cases with few generators, none from random ones.
-void run_time_of_scvt(bool quick);
+/// Writes to stdout.
+void run_time_of_scvt();
 
 struct DescentSettings {
   int n = 40000;

@@ -1,10 +1,10 @@
 #include "time_of_threads.h"
 
 #include <fmt/format.h>
-#include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -17,28 +17,6 @@
 
 namespace benchmark {
 namespace {
-
-/// Programs that do nothing but use a processor each.
-class BusyPrograms {
- public:
-  explicit BusyPrograms(int count) {
-    while (count-- > 0) {
-      const pid_t child = fork();
-      if (child == 0)
-        for (volatile int i = 0;; i = i + 1) {
-        }
-      children_.push_back(child);
-    }
-  }
-  ~BusyPrograms() {
-    for (const pid_t child : children_) kill(child, SIGKILL);
-  }
-  BusyPrograms(const BusyPrograms&) = delete;
-  BusyPrograms& operator=(const BusyPrograms&) = delete;
-
- private:
-  std::vector<pid_t> children_;
-};
 
 struct Both {
   Samples by_default, on_one_thread;
@@ -172,8 +150,14 @@ void run_time_of_threads_on_busy_machine(const std::string& self, int repeats) {
     print_row(fmt::format("each of {} ranks by itself", ranks), measure_both(self, launcher, model, repeats));
   }
 #endif
-  const BusyPrograms others(kBusy);
+  static std::atomic<bool> is_over{false};
+  for (int i = 0; i < kBusy; ++i)
+    std::thread([] {
+      while (!is_over) {
+      }
+    }).detach();
   print_row(fmt::format("a program beside {} others", kBusy), measure_both(self, "", model, repeats));
+  is_over = true;
 }
 
 }  // namespace benchmark

@@ -52,7 +52,7 @@ if [ -n "$COMPARE" ]; then
   cannot_print $run
 fi
 if [ -n "$SCALING" ]; then
-  scaling="$SCALING --ranks 1 --sizes 1000 --repeats 1 --modes distributed --tables constant-n"
+  scaling="$SCALING --ranks 1 --sizes 1000 --repeats 1 --modes distributed"
   cannot_print $scaling
 fi
 if [ -n "$BENCHMARK" ]; then

@@ -1,5 +1,5 @@
 ! Compares results with those of the original (libngmath.a, names that begin with CS) for the same lists, on meshes
-! large enough for threads and long walks. Integers, and reals computed without arccos, arcsin or atan2, must be equal
+! large enough for long walks. Integers, and reals computed without arccos, arcsin or atan2, must be equal
 ! to the last bit. The lists are those of the original's TRMESH, which links them irregularly. tests/differential
 ! compares all routines on many small sets.
 program against_original

@@ -311,16 +311,7 @@ TEST(DistributedMesh, NothingOutsideTheArraysIsTouched) {
   }
 }
 
-struct Failed {
-  int code;
-  std::int64_t first, second;
-};
-bool operator==(const Failed& a, const Failed& b) {
-  return a.code == b.code && a.first == b.first && a.second == b.second;
-}
-std::ostream& operator<<(std::ostream& out, const Failed& f) {
-  return out << f.code << " about " << f.first << ", " << f.second;
-}
+using Failed = std::tuple<int, std::int64_t, std::int64_t>;  ///< the code, and the points that it is about
 
 /// Expects the same failure for every distribution, and an empty mesh after it.
 void expect_failure(const Nodes& nodes, const Number& number, const Failed& expected) {
@@ -329,9 +320,10 @@ void expect_failure(const Nodes& nodes, const Number& number, const Failed& expe
     SCOPED_TRACE(d.name);
     const auto good = point_sets::make("random", 20);
     ASSERT_EQ(triangulate(mesh, good, nodes_here(d, good.size()), from_one), 0);
-    Failed f{triangulate(mesh, nodes, nodes_here(d, nodes.size()), number), 0, 0};
-    pstripack_mesh_error_points(mesh, &f.first, &f.second);
-    EXPECT_EQ(f, expected);
+    const int code = triangulate(mesh, nodes, nodes_here(d, nodes.size()), number);
+    std::int64_t first = 0, second = 0;
+    pstripack_mesh_error_points(mesh, &first, &second);
+    EXPECT_EQ(Failed(code, first, second), expected);
     const Sizes sizes(mesh);
     EXPECT_EQ(sizes.points + sizes.arcs + sizes.triangles + sizes.halo, 0);
     EXPECT_EQ(pstripack_mesh_gather(mesh, 0, nullptr, nullptr, nullptr, nullptr), -3);
@@ -488,10 +480,7 @@ TEST(DistributedMesh, DeclinesCallsOfThreadsAndForkedChildrenThatMustNotCallMpi)
 
 /// Expects a call of the mesh to return a code, and one line of rank 0.
 void expect_line(const std::function<int()>& call, int code, const std::string& line) {
-  testing::internal::CaptureStderr();
-  EXPECT_EQ(call(), code);
-  EXPECT_EQ(testing::internal::GetCapturedStderr(),
-            rank_of() == 0 ? "pstripack: " + line + " (IER = " + std::to_string(code) + ")\n" : "");
+  expect_lines_of_rank_0(line + " (IER = " + std::to_string(code) + ")", [&] { EXPECT_EQ(call(), code); });
 }
 
 TEST(DistributedMesh, ExchangeRefusesWidthsAlikeOnEveryRank) {

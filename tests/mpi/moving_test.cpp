@@ -349,8 +349,6 @@ bool is_on_any(int value) {
   return value != 0;
 }
 
-/// Any allocation, or all from one on, fail on a rank in a call that would begin with the last stars: all
-/// ranks get the same stars, or code -6, and the next call is correct.
 /// Stars that are damaged on the last rank: check() tells the damaged one, or a smaller neighbour.
 TEST(Moving, CheckFindsDamagedStars) {
   const Nodes nodes = point_sets::make("random", 200, 1);
@@ -385,6 +383,8 @@ TEST(Moving, CheckFindsDamagedStars) {
   }
 }
 
+/// Any allocation, or all from one on, fail on a rank in a call that would begin with the last stars: all
+/// ranks get the same stars, or code -6, and the next call is correct.
 TEST(Moving, SurviveMemoryThatRunsOut) {
   const Nodes nodes = point_sets::make("random", 1000, 1);
   Random order(static_cast<std::uint64_t>(rank_of()));
