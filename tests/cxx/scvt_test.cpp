@@ -370,7 +370,9 @@ TEST(Run, HasTheSameBitsForAnyNumberOfThreads) {
 
 struct Worst {
   std::size_t obtuse = 0;                    ///< triangles with an angle of 90 degrees or more
-  double least_cosine = 1, least_ratio = 1;  ///< of an angle; of an edge of a cell over its arc
+  double least_cosine = 1, most_cosine = 0;  ///< of an angle
+  double least_ratio = 1;                    ///< of an edge of a cell over its arc
+  std::int64_t bad = 0;                      ///< triangles with an angle out of bounds
 };
 Worst worst_of(const std::vector<Point>& generators) {
   std::vector<std::int32_t> list, lptr, lend;
@@ -394,7 +396,15 @@ Worst worst_of(const std::vector<Point>& generators) {
     for (std::size_t k = 0; k < count; ++k) {
       const double cosine = angle(i, ring(k), ring(k + 1)).first;
       worst.least_cosine = std::min(worst.least_cosine, cosine);
+      worst.most_cosine = std::max(worst.most_cosine, cosine);
       worst.obtuse += cosine <= 0;
+      const auto out_of_bounds = [&](std::size_t at, std::size_t b, std::size_t c) {
+        const double other = angle(at, b, c).first;
+        return other < std::cos(kMostAngle * kPi / 180) || other > std::cos(kLeastAngle * kPi / 180);
+      };
+      if (i < ring(k) && i < ring(k + 1))
+        worst.bad += out_of_bounds(i, ring(k), ring(k + 1)) || out_of_bounds(ring(k), ring(k + 1), i) ||
+                     out_of_bounds(ring(k + 1), i, ring(k));
       worst.least_ratio =
           std::min(worst.least_ratio,
                    (angle(ring(k), i, ring(k + 1)).second + angle(ring(k + 2), i, ring(k + 1)).second) / 2);
@@ -413,10 +423,11 @@ TEST(WellCentred, FewGeneratorsOfARunMoveALittle) {
   const Tessellation after = run(first, bump, options);
   const Worst worst = worst_of(after.state.generators);
   EXPECT_EQ(worst.obtuse, 0U);
-  EXPECT_GT(worst.least_cosine, std::cos(84 * kPi / 180));
-  EXPECT_GT(worst.least_ratio, 0.1);
+  EXPECT_GE(worst.least_cosine, std::cos(kMostAngle * kPi / 180));
+  EXPECT_LE(worst.most_cosine, std::cos(kLeastAngle * kPi / 180));
+  EXPECT_GT(worst.least_ratio, 0.2);
   EXPECT_EQ(after.repair.obtuse, 0);
-  EXPECT_NEAR(after.repair.largest_angle, std::acos(worst.least_cosine), 1e-12);
+  EXPECT_EQ(after.repair.bad, 0);
   std::int64_t moved = 0;
   for (std::size_t i = 0; i < 5000; ++i) {
     const double by = length(minus(before.state.generators[i], after.state.generators[i]));
@@ -424,7 +435,7 @@ TEST(WellCentred, FewGeneratorsOfARunMoveALittle) {
     EXPECT_LT(by, 0.3 * std::sqrt(4 * kPi / 5000));
   }
   EXPECT_EQ(moved, after.repair.moved);
-  EXPECT_LT(moved, 300);
+  EXPECT_LT(moved, 700);
   // The result is that of the moved generators.
   EXPECT_EQ(after.result.end, End::converged);
   EXPECT_EQ(after.state.evaluations, before.state.evaluations);
@@ -445,7 +456,7 @@ TEST(WellCentred, WhatCannotBeIsCounted) {
   const Worst worst = worst_of(points);
   EXPECT_GT(repair.obtuse, 0);
   EXPECT_EQ(static_cast<std::size_t>(repair.obtuse), worst.obtuse);
-  EXPECT_NEAR(repair.largest_angle, std::acos(worst.least_cosine), 1e-12);
+  EXPECT_EQ(repair.bad, worst.bad);
   // Right angles, exactly: not strictly inside.
   std::vector<Point> cube = {{1, 1, 1},  {1, 1, -1},  {1, -1, 1},  {1, -1, -1},
                              {-1, 1, 1}, {-1, 1, -1}, {-1, -1, 1}, {-1, -1, -1}};

@@ -302,6 +302,7 @@ Mesh cut(const Mesh& mesh) {
     part.columns.push_back(whole_numbers(kBdyMaskCell, "0: region, 1 to 7: layers around it", layers));
   part.notes = mesh.notes;
   part.radius = mesh.radius;
+  part.nominal = mesh.nominal;
   part.variant = mesh.variant;
   return part;
 }

@@ -40,7 +40,8 @@ struct Mesh {
   Columns columns;                   ///< values of each node
   std::vector<std::int32_t> layers;  ///< of each node in a limited area (limited_area.h); empty: none
   Notes notes;
-  double radius = 1;  ///< of the sphere in MPAS files
+  double radius = 1;   ///< of the sphere in MPAS files
+  double nominal = 0;  ///< width of cells of density 1, radians; 0: unknown
   Variant variant = {};
   double longest = 0;  ///< radians: triangles with a longer side are no faces; 0: all are
   std::vector<std::int32_t> list, lptr, lend;

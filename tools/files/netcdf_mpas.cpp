@@ -74,6 +74,58 @@ double* put_place(const Point& p, double radius, double* to) {
   return to;
 }
 
+/// Units and long_name of a variable; of the places of cells, edges and vertices those of latCell to zCell.
+struct Words {
+  const char *name, *units, *long_name;
+};
+constexpr Words kOfPlaces[] = {{"lat", "rad", "latitude"},
+                               {"lon", "rad", "longitude"},
+                               {"x", "m", "Cartesian x coordinate"},
+                               {"y", "m", "Cartesian y coordinate"},
+                               {"z", "m", "Cartesian z coordinate"}};
+constexpr Words kOfOthers[] = {{"areaCell", "m2", "area of the cell"},
+                               {"meshDensity", "1", "density: (nominalMinDc / width of the cell)^4"},
+                               {"gridSpacing", "m", "mean distance to the neighbours of the cell"},
+                               {"cellQuality", "1", "shortest over longest edge of the cell"},
+                               {"indexToCellID", "1", "number of the cell"},
+                               {"nEdgesOnCell", "1", "number of edges of the cell"},
+                               {"cellsOnCell", "1", "cells around the cell"},
+                               {"edgesOnCell", "1", "edges of the cell"},
+                               {"verticesOnCell", "1", "vertices of the cell"},
+                               {"angleEdge", "rad", "angle from east to the normal of the edge"},
+                               {"dcEdge", "m", "distance of the cells of the edge"},
+                               {"dvEdge", "m", "length of the edge: distance of its vertices"},
+                               {"indexToEdgeID", "1", "number of the edge"},
+                               {"nEdgesOnEdge", "1", "number of edges that give the tangential velocity"},
+                               {"cellsOnEdge", "1", "cells on both sides of the edge"},
+                               {"verticesOnEdge", "1", "vertices at the ends of the edge"},
+                               {"edgesOnEdge", "1", "edges that give the tangential velocity"},
+                               {"weightsOnEdge", "1", "weights of these edges"},
+                               {"areaTriangle", "m2", "area of the triangle around the vertex"},
+                               {"triangleQuality", "1", "shortest over longest side of the triangle"},
+                               {"triangleAngleQuality", "1", "least over largest angle of the triangle"},
+                               {"indexToVertexID", "1", "number of the vertex"},
+                               {"boundaryVertex", "1", "1: the vertex lies at the boundary"},
+                               {"obtuseTriangle", "1", "1: the triangle does not hold the vertex"},
+                               {"cellsOnVertex", "1", "cells that meet at the vertex"},
+                               {"edgesOnVertex", "1", "edges that meet at the vertex"},
+                               {"kiteAreasOnVertex", "m2", "areas that the triangle shares with these cells"},
+                               {"nominalMinDc", "m", "width of cells of density 1"},
+                               {"bdyMaskCell", "1", "0: region, 1 to 7: layers around it"},
+                               {"bdyMaskEdge", "1", "least bdyMaskCell of its cells"},
+                               {"bdyMaskVertex", "1", "least bdyMaskCell of its cells"}};
+
+void describe(NetcdfWriter& out) {
+  const auto add = [&](const std::string& name, const char* units, const std::string& long_name) {
+    if (const int id = out.find(name); id >= 0)
+      out.attribute(id, "units", units), out.attribute(id, "long_name", long_name);
+  };
+  for (const Words& words : kOfPlaces)
+    for (const auto& [of, whose] : {std::pair("Cell", "cell"), {"Edge", "edge"}, {"Vertex", "vertex"}})
+      add(std::string(words.name) + of, words.units, fmt::format("{} of the {}", words.long_name, whose));
+  for (const Words& words : kOfOthers) add(words.name, words.units, words.long_name);
+}
+
 void write(const OutputFile& file, const MpasMesh& mesh, const MpasValues& values) {
   using Index = MpasMesh::Index;
   const auto at = [](Index i) { return static_cast<std::size_t>(i); };
@@ -95,30 +147,26 @@ void write(const OutputFile& file, const MpasMesh& mesh, const MpasValues& value
   out.attribute(NC_GLOBAL, "source", "pstripack");
   out.attribute(NC_GLOBAL, "file_id", file_id_of(mesh, radius));
 
-  const auto in_radians = [&](const std::vector<int>& variables) {  // the first two: latitudes, longitudes
-    for (int k = 0; k < 2; ++k) out.attribute(variables[static_cast<std::size_t>(k)], "units", "rad");
-  };
-
   // Of a cell.
   const LonLat given = values.given.empty() ? LonLat() : angles_of(mesh.cells, values.given, false);
   const std::vector<double>& density = values.density;
   const double densest =
       density.empty() ? 1 : std::max(1.0, *std::max_element(density.begin(), density.end()));
-  in_radians(out.rows<double>({"latCell", "lonCell", "xCell", "yCell", "zCell", "areaCell", "meshDensity",
-                               "gridSpacing", "cellQuality"},
-                              {cells}, {}, [&](std::size_t c, double* value) {
-                                double* next = put_place(mesh.cells[c], radius, value);
-                                if (!given.empty()) value[0] = given.lat[c], value[1] = from_0(given.lon[c]);
-                                *next++ = square * mesh.areas[c];
-                                *next++ = density.empty() ? 1 : density[c] / densest;
-                                double sum = 0;
-                                for (std::size_t j = 0; j < mesh.sides(c); ++j)
-                                  sum += mesh.distances[at(mesh.edges_on_cell[mesh.row(c, j)])];
-                                *next++ = radius * sum / static_cast<double>(mesh.sides(c));
-                                *next++ = evenness(mesh.sides(c), [&](std::size_t j) {
-                                  return std::fabs(mesh.outflows[mesh.row(c, j)]);
-                                });
-                              }));
+  out.rows<double>({"latCell", "lonCell", "xCell", "yCell", "zCell", "areaCell", "meshDensity", "gridSpacing",
+                    "cellQuality"},
+                   {cells}, {}, [&](std::size_t c, double* value) {
+                     double* next = put_place(mesh.cells[c], radius, value);
+                     if (!given.empty()) value[0] = given.lat[c], value[1] = from_0(given.lon[c]);
+                     *next++ = square * mesh.areas[c];
+                     *next++ = density.empty() ? 1 : density[c] / densest;
+                     double sum = 0;
+                     for (std::size_t j = 0; j < mesh.sides(c); ++j)
+                       sum += mesh.distances[at(mesh.edges_on_cell[mesh.row(c, j)])];
+                     *next++ = radius * sum / static_cast<double>(mesh.sides(c));
+                     *next++ = evenness(mesh.sides(c), [&](std::size_t j) {
+                       return std::fabs(mesh.outflows[mesh.row(c, j)]);
+                     });
+                   });
   out.rows<Index>({"indexToCellID", "nEdgesOnCell"}, {cells}, {}, [&](std::size_t c, Index* value) {
     value[0] = static_cast<Index>(c + 1);
     value[1] = static_cast<Index>(mesh.sides(c));
@@ -134,14 +182,13 @@ void write(const OutputFile& file, const MpasMesh& mesh, const MpasValues& value
   of_sides("verticesOnCell", [&](std::size_t row, std::size_t) { return mesh.vertices_on_cell[row]; });
 
   // Of an edge.
-  in_radians(
-      out.rows<double>({"latEdge", "lonEdge", "xEdge", "yEdge", "zEdge", "angleEdge", "dcEdge", "dvEdge"},
-                       {edges}, {}, [&](std::size_t e, double* value) {
-                         double* next = put_place(mesh.edge_point(e), radius, value);
-                         *next++ = mesh.angle(e);
-                         *next++ = radius * mesh.distances[e];
-                         *next++ = radius * mesh.width(e);
-                       }));
+  out.rows<double>({"latEdge", "lonEdge", "xEdge", "yEdge", "zEdge", "angleEdge", "dcEdge", "dvEdge"},
+                   {edges}, {}, [&](std::size_t e, double* value) {
+                     double* next = put_place(mesh.edge_point(e), radius, value);
+                     *next++ = mesh.angle(e);
+                     *next++ = radius * mesh.distances[e];
+                     *next++ = radius * mesh.width(e);
+                   });
   out.rows<Index>({"indexToEdgeID", "nEdgesOnEdge"}, {edges}, {}, [&](std::size_t e, Index* value) {
     value[0] = static_cast<Index>(e + 1);
     for (const Index c : mesh.cells_on_edge[e])
@@ -162,19 +209,18 @@ void write(const OutputFile& file, const MpasMesh& mesh, const MpasValues& value
   });
 
   // Of a vertex.
-  in_radians(out.rows<double>({"latVertex", "lonVertex", "xVertex", "yVertex", "zVertex", "areaTriangle",
-                               "triangleQuality", "triangleAngleQuality"},
-                              {vertices}, {}, [&](std::size_t v, double* value) {
-                                double* next = put_place(mesh.vertices[v], radius, value);
-                                *next++ = square * mesh.triangle_area(v);
-                                const MpasMesh::Three& around_v = mesh.edges_on_vertex[v];
-                                *next++ =
-                                    evenness(around_v[2] == MpasMesh::kNone ? 2 : 3,
-                                             [&](std::size_t j) { return mesh.distances[at(around_v[j])]; });
-                                if (mesh.is_at_boundary(v)) return;
-                                const pstripack::Angles angles = mesh.angles(v);
-                                *next = evenness(3, [&](std::size_t j) { return angles.at[j]; });
-                              }));
+  out.rows<double>({"latVertex", "lonVertex", "xVertex", "yVertex", "zVertex", "areaTriangle",
+                    "triangleQuality", "triangleAngleQuality"},
+                   {vertices}, {}, [&](std::size_t v, double* value) {
+                     double* next = put_place(mesh.vertices[v], radius, value);
+                     *next++ = square * mesh.triangle_area(v);
+                     const MpasMesh::Three& around_v = mesh.edges_on_vertex[v];
+                     *next++ = evenness(around_v[2] == MpasMesh::kNone ? 2 : 3,
+                                        [&](std::size_t j) { return mesh.distances[at(around_v[j])]; });
+                     if (mesh.is_at_boundary(v)) return;
+                     const pstripack::Angles angles = mesh.angles(v);
+                     *next = evenness(3, [&](std::size_t j) { return angles.at[j]; });
+                   });
   out.rows<Index>({"indexToVertexID", "boundaryVertex", "obtuseTriangle"}, {vertices}, {},
                   [&](std::size_t v, Index* value) {
                     value[0] = static_cast<Index>(v + 1);
@@ -201,6 +247,10 @@ void write(const OutputFile& file, const MpasMesh& mesh, const MpasValues& value
     least("bdyMaskEdge", edges, mesh.cells_on_edge);
     least("bdyMaskVertex", vertices, mesh.cells_on_vertex);
   }
+  const double nominal = radius * values.nominal / std::sqrt(std::sqrt(densest));
+  if (nominal > 0)
+    out.rows<double>({"nominalMinDc"}, {}, {}, [=](std::size_t, double* to) { *to = nominal; });
+  describe(out);
   out.write();
 }
 
@@ -225,7 +275,7 @@ void write_mpas(const OutputFile& file, const MpasMesh& mesh, const MpasValues& 
 void write_mpas(const OutputFile& file, const Mesh& mesh) {
   std::vector<std::size_t> kept;
   const MpasMesh complete = mpas_mesh(mesh, kept);
-  MpasValues values{mesh.given, mesh.density, mesh.notes, mesh.radius, mesh.layers};
+  MpasValues values{mesh.given, mesh.density, mesh.notes, mesh.radius, mesh.layers, mesh.nominal};
   if (!kept.empty()) {
     values.layers = values_at(mesh.layers, kept);
     for (auto* const of_nodes : {&values.given.lon, &values.given.lat, &values.density})

@@ -68,6 +68,12 @@ class NetcdfWriter {
     for (const auto& [attribute_name, text] : attributes) attribute(variable, attribute_name.c_str(), text);
     return variable;
   }
+  /// The number of a variable; -1: there is none with this name.
+  int find(const std::string& name) const {
+    int variable = -1;
+    nc_inq_varid(id_, name.c_str(), &variable);
+    return variable;
+  }
   /// Defines a variable of double or std::int32_t. `values`: this process's rows, which must outlive the
   /// writer.
   template <class Value>

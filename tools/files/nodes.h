@@ -81,6 +81,7 @@ struct Nodes {
   std::vector<std::string> variables;  ///< all of a NetCDF file
   std::size_t polygons = 0;  ///< faces of more than three corners, which are not read; nor are the triangles
   double radius = 1;         ///< of the sphere, if the file says it
+  double nominal = 0;        ///< width of cells of density 1, radians, if the file says it
 
   /// The number of the node in the file, from 1.
   std::size_t number(std::size_t i) const { return numbers.empty() ? before + i + 1 : numbers[i]; }

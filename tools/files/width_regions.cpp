@@ -102,12 +102,27 @@ class Reader {
         if (std::fabs(lon - before) > 180 && std::fabs(lon - before) < 360)
           fail(fmt::format(
               "its side from longitude {:g} to {:g} goes around the globe: cut the polygon at 180, "
-              "or continue beyond, say to 190",
-              before, lon));
+              "or write {:g} in place of {:g}",
+              before, lon, lon < before ? lon + 360 : lon - 360, lon));
       }
-      if (corners.front() != corners.back()) fail("a ring that is not closed: repeat its first corner");
+      make_cap(corners);
+      const auto [first, last] = std::pair(corners.front(), corners.back());
+      if (std::fabs(first.first - last.first) == 360)
+        fail(fmt::format("a ring around a pole: continue it by {:g},{:g} {:g},{:g} and its first corner",
+                         last.first, std::copysign(90, last.second), first.first,
+                         std::copysign(90, last.second)));
+      if (first != last) fail("a ring that is not closed: repeat its first corner");
     }
     return region;
+  }
+
+  /// A ring once around the globe along a parallel becomes the cap between the parallel and the nearer pole.
+  static void make_cap(std::vector<std::pair<double, double>>& corners) {
+    const auto [west, east] = std::minmax_element(corners.begin(), corners.end());
+    const double lat = west->second, pole = std::copysign(90, lat);
+    for (const auto& corner : corners)
+      if (corner.second != lat || std::fabs(lat) == 90 || east->first - west->first != 360) return;
+    corners = {*west, *east, {east->first, pole}, {west->first, pole}, *west};
   }
 
   std::string file_;

@@ -126,6 +126,7 @@ struct MpasValues {
   double radius = 1;  ///< of the sphere; 1: unit sphere
   /// bdyMaskCell of a limited area (limited_area.h), or empty.
   std::vector<std::int32_t> layers = {};
+  double nominal = 0;  ///< width of cells of density 1, radians; 0: unknown
 };
 /// Writes the mesh, and beside a file with a name its graph for METIS.
 void write_mpas(const OutputFile& file, const MpasMesh& mesh, const MpasValues& values);

@@ -36,6 +36,7 @@ files::Mesh mesh_in(const files::Nodes& nodes) {
   mesh.columns = nodes.columns;
   mesh.notes = nodes.notes;
   mesh.radius = nodes.radius;
+  mesh.nominal = nodes.nominal;
   return mesh;
 }
 
@@ -71,7 +72,7 @@ void write_cut(const files::OutputFile& file, const Output& output, const files:
       file,
       files::mpas_mesh(files::unit(nodes.points), files::unit(nodes.vertices), std::move(cells_on_vertex)),
       {nodes.given, nodes.density, nodes.notes, output.radius > 0 ? output.radius : nodes.radius,
-       layers_in(nodes)});
+       layers_in(nodes), nodes.nominal});
 }
 
 /// Says which variables of a NetCDF file, those of init_atmosphere for example, the mesh made of it lacks.

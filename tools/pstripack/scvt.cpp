@@ -59,7 +59,8 @@ struct Options {
   files::Point centre{0, 0, 0};  ///< of its cells
   double width = 0;              ///< of all cells, km; 0: not given
   double radius = 0;             ///< of the sphere, metres; 0: not given
-  double grade = 0;              ///< most that widths may change, km per km; 0: not given
+  double nominal = 0;  ///< width of cells of density 1 times the root of their number, radians; 0: unknown
+  double grade = 0;    ///< most that widths may change, km per km; 0: not given
   Method method = Method::newton;
   double tolerance = -1;      ///< below 0: not given
   bool well_centred = false;  ///< move generators until all triangles hold their circumcentre
@@ -261,12 +262,14 @@ std::unique_ptr<engine::Density> density_of_widths(Options& options) {
     options.centre = regional.centre;
   }
   choose_n(options, widths.cells);
+  options.nominal = widths.least * std::sqrt(widths.cells) / (options.radius / 1000);
   return std::move(widths.density);
 }
 
 std::unique_ptr<engine::Density> make_density(Options& options) {
   if (!options.width_text.empty() || !options.width_file.empty()) return density_of_widths(options);
   if (!options.density_file.empty()) return density_in_file(options);
+  if (options.density == "constant") options.nominal = std::sqrt(methods::cells_of_width(1, 1));
   try {
     return methods::density_of(options.density);
   } catch (const std::invalid_argument& e) {
@@ -400,14 +403,15 @@ Tessellation tessellation_of(Communicator& ranks, files::Nodes& start, const Opt
 }
 
 /// The density of an MPAS mesh is at most 1.
-void scale_density(std::vector<double>& densities) {
-  const double largest = *std::max_element(densities.begin(), densities.end());
-  for (double& density : densities) density /= largest;
+void scale_density(files::Mesh& mesh) {
+  const double largest = *std::max_element(mesh.density.begin(), mesh.density.end());
+  for (double& density : mesh.density) density /= largest;
+  mesh.nominal /= std::sqrt(std::sqrt(largest));
 }
 
 void write(const Output& output, files::Mesh& mesh) {
   files::OutputFile file(output.file);
-  if (output.format == files::Format::mpas) scale_density(mesh.density);
+  if (output.format == files::Format::mpas) scale_density(mesh);
   if (!mesh.layers.empty() && output.format != files::Format::mpas) mesh = files::cut(mesh);
   if (!files::holds_nodes(output.format))
     write_mesh(file, output, mesh);
@@ -438,6 +442,7 @@ methods::Quality write(Ranks& ranks, const Options& options, bool is_checkpoint,
       if (communicator.rank() > 0) return;
       files::Mesh mesh = files::triangulate(std::move(all));
       complete(mesh, mesh.points);
+      mesh.nominal = options.nominal / std::sqrt(static_cast<double>(mesh.points.size()));
       if (is_regional) keep_area(mesh, options.area);
       if (!is_checkpoint) quality = methods::quality_of(mesh);
       write(output, mesh);
@@ -609,6 +614,11 @@ std::string what_is_missing(const Options& options, const Tessellation& t, const
         "{} triangles do not hold their circumcentre, the first at lon {:.6g} lat {:.6g}, also after {} "
         "generators were moved: try a smaller --tolerance or --grade, or another --first or --seed",
         obtuse, where.lon[0], where.lat[0], t.repair.moved);
+  }
+  if (t.repair.bad > 0 && options.region.empty()) {
+    const files::LonLat where({t.repair.place}, true);
+    say(fmt::format("{} triangles have an angle beyond {:g} to {:g} degrees, the first at lon {:.6g} lat {:.6g}",
+                    t.repair.bad, engine::kLeastAngle, engine::kMostAngle, where.lon[0], where.lat[0]));
   }
   if (options.strict && t.result.end != engine::End::converged)
     return fmt::format("not converged to {:g}", options.tolerance);

@@ -34,6 +34,8 @@ class Mesh:
             self.attributes = {name: data.getncattr(name) for name in data.ncattrs()}
             self.dimensions = list(data.dimensions)
             self.kind = data.data_model
+            self.units = {name: (variable.__dict__.get("units"), variable.__dict__.get("long_name"))
+                          for name, variable in data.variables.items()}
         radius = REAL(self.attributes.get("sphere_radius", 1))
         for of in ("Cell", "Edge", "Vertex"):
             if hasattr(self, "x" + of):
@@ -243,6 +245,7 @@ def check_graph(mesh, file):
 def check(name, tolerance=4e-13):
     mesh = Mesh(FOLDER / f"{name}.mpas.nc")
     assert mesh.kind == "NETCDF3_64BIT_DATA" and mesh.attributes["Conventions"] == "MPAS"
+    assert all(units in ("rad", "m", "m2", "1") and words for units, words in mesh.units.values()), mesh.units
     check_who_touches_whom(mesh)
     check_values(mesh, tolerance)
     check_graph(mesh, FOLDER / f"{name}.graph.info")
@@ -383,6 +386,7 @@ def check_region(mesh, name, circle=None, rings=None, text=None):
     check_masks(part, mask[kept])
     assert all((getattr(part, axis) == getattr(mesh, axis)[kept]).all() for axis in ("xCell", "yCell", "zCell", "lonCell"))
     assert np.allclose(part.areaCell, mesh.areaCell[kept], rtol=1e-13)
+    assert getattr(part, "nominalMinDc", 0) == getattr(mesh, "nominalMinDc", 0)
     # What is cut can be read.
     run("convert", FOLDER / f"{name}_part.mpas.nc", "-o", FOLDER / f"{name}_again.mpas.nc")
     again = Mesh(FOLDER / f"{name}_again.mpas.nc")
@@ -412,6 +416,7 @@ errors.append(check_tangential_velocity(earth))
 assert errors[0] < 0.05 and errors[1] < 0.3 * errors[0] and errors[2] < 0.3 * errors[1], errors  # second order
 assert counterclockwise(earth) == 1 and (earth.obtuseTriangle == 0).all()
 assert abs(earth.areaCell.sum() / (4 * math.pi * 6371229.0**2) - 1) < 1e-13
+assert abs(earth.nominalMinDc / earth.dcEdge.mean() - 1) < 0.01  # the width of regular hexagons
 with xarray.open_dataset(FOLDER / "earth.mpas.nc") as data:
     assert data.sizes["nCells"] == 642 and data["areaCell"].dims == ("nCells",) and data.history.startswith("pstripack ")
     assert data["weightsOnEdge"].dims == ("nEdges", "maxEdges2") and data.sphere_radius == 6371229
@@ -457,6 +462,7 @@ check_masks(limited, layers_by_definition(limited, (900, 10, 50), None))
 assert limited.meshDensity.min() > 0.99 and (limited.obtuseTriangle == 0).all() and (limited.nEdgesOnCell != 6).sum() < 6
 widths = limited.dcEdge[(limited.cellsOnEdge > 0).all(axis=1)] * 6371.22 / 150
 assert abs(widths.mean() - 1) < 5e-3 and widths.std() < 0.03, (widths.mean(), widths.std())
+assert abs(limited.nominalMinDc * 6371.22 / 150 - 1) < 1e-4, limited.nominalMinDc
 assert f" of {said.split('the widths give ')[2].split()[0]} cells kept: {(limited.bdyMaskCell == 0).sum()} in the region, " in said, said
 
 # At the boundary of a hemisphere nodes have no whole cells.

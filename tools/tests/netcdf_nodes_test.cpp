@@ -89,6 +89,19 @@ TEST(netcdf, coordinates_are_taken_as_they_are) {
   EXPECT_EQ(points_of(file.closed()), (Points{{6371229, 0, 0}, {0, 6371229, 0}, {0, 0, 2}}));
 }
 
+TEST(netcdf, mpas_meshes_are_on_a_sphere_of_their_radius) {
+  for (const char* const is_on_a_sphere : {"YES", "NO              "}) {
+    NetcdfFile file;
+    const int n = file.dimension("nCells", 2);
+    file.with("xCell", {n}, {6371220, 0}).with("yCell", {n}, {0, 0}).with("zCell", {n}, {0, 6371220});
+    const std::string name = file.note("on_a_sphere", is_on_a_sphere).closed();
+    if (*is_on_a_sphere == 'Y')
+      EXPECT_EQ(read(name).radius, 6371220);
+    else
+      EXPECT_NE(error_of(name).find("on_a_sphere is NO: a planar mesh"), std::string::npos);
+  }
+}
+
 TEST(netcdf, radians_nearest_to_a_right_angle_mean_it_also_in_single_precision) {
   const double pi = std::acos(-1.0);
   for (const nc_type type : {NC_DOUBLE, NC_FLOAT})

@@ -1142,7 +1142,10 @@ def test_scvt_regions_of_widths_that_are_refused():
             (polygon(box, width=3000),
              "feature 1: it is smaller than a cell of 3000 km: enlarge it, make its width smaller, or use a disc"),
             (polygon(across, width=30),
-             "feature 1: its side from longitude 170 to -170 goes around the globe: cut the polygon at 180, or continue beyond"),
+             "feature 1: its side from longitude 170 to -170 goes around the globe: cut the polygon at 180, or write 190 in "
+             "place of -170"),
+            (polygon([[-180, 60], [0, 65], [180, 60]] + [[180, 60]], width=30),
+             "feature 1: a ring around a pole: continue it by 180,90 -180,90 and its first corner"),
             (polygon([[0, 0], [9, 0], [9, 91], [0, 0]], width=30), "feature 1: latitude 91 is beyond the pole"),
             ({"type": "Point", "coordinates": [0, 0]}, "not GeoJSON of polygons: the type is 'Point', expected "
              "FeatureCollection, Feature, Polygon or MultiPolygon")):
@@ -1161,6 +1164,12 @@ def test_limited_areas_that_are_refused():
                         ("bow", [[[0, 0], [40, 40], [40, 0], [0, 40], [0, 0]]]),
                         ("tiny", [[[0, 0], [0.7, 0], [0.7, 0.7], [0, 0]]])):
         write_json(name + ".json", {"type": "Polygon", "coordinates": rings})
+    # A ring along a parallel, in any turn, is the cap around the pole.
+    output("convert sphere.nc --region 0,360,60,90 -o box.nc")
+    for lons in range(0, 361, 90), range(180, -181, -120), [*range(0, 361, 120), 0]:
+        write_json("cap.json", polygon([[lon, 60] for lon in lons]))
+        output("convert sphere.nc --region cap.json -o cap.nc")
+        assert nodes_of("cap.nc") == nodes_of("box.nc")
     write_json("two.json", {"type": "MultiPolygon", "coordinates": [[triangle], [[[90, 0], [110, 0], [100, 20], [90, 0]]]]})
     for code, command, words in (
             (1, "scvt 10 --density-file regional.nc --variable value",

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "base/parallel_for.h"
 #include "geometry/measures.h"
@@ -13,9 +14,10 @@
 namespace pstripack::scvt {
 namespace {
 
-constexpr double kWanted = 0.12186934340514748;  ///< cosine of 83 degrees
-constexpr double kEnough = 0.10452846326765346;  ///< cosine of 84 degrees
-constexpr int kPatience = 15;  ///< passes without fewer obtuse triangles; three passes in all are usual
+// Cosines. Angles are wanted within 44.5 to 77.5 degrees, so that few passes bring all within 43.5 to 78.5.
+constexpr double kMostWanted = 0.7132504491541816, kLeastWanted = 0.21643961393810288;
+constexpr double kCosineOfLeast = 0.7253743710122876, kCosineOfMost = 0.19936793441719716;
+constexpr int kPatience = 8;  ///< passes without fewer bad triangles; 3 to 20 passes in all are usual
 
 using Triangle = std::array<Point, 3>;
 
@@ -24,34 +26,35 @@ double cosine_at(const Triangle& t, std::size_t k) {
   return dot(u, v) / std::sqrt(dot(u, u) * dot(v, v));
 }
 
-/// How corner 0 moves so that the angle at corner k becomes `kWanted`, to first order, if the three corners
-/// move as little as they can: along the gradient of its cosine.
+/// How corner 0 moves so that the cosine of the angle at corner k becomes `wanted`, to first order, if the
+/// three corners move as little as they can: along its gradient.
 ///
 ///        k           cosine = u.v / (|u| |v|);  its gradient at the end of u is
 ///     u /.\ v        v / (|u| |v|) - cosine u / |u|^2,  likewise at the end of v,
 ///      /   \         and at k minus the sum of both.
-Point step_of(const Triangle& t, std::size_t k) {
+Point step_of(const Triangle& t, std::size_t k, double wanted) {
   const Point u = minus(t[(k + 1) % 3], t[k]), v = minus(t[(k + 2) % 3], t[k]);
   const double uu = dot(u, u), vv = dot(v, v), size = std::sqrt(uu * vv), cosine = dot(u, v) / size;
   const Point at_u = minus(scaled(1 / size, v), scaled(cosine / uu, u));
   const Point at_v = minus(scaled(1 / size, u), scaled(cosine / vv, v));
   const Point at_k = scaled(-1, plus(at_u, at_v));
-  const double length = (kWanted - cosine) / (dot(at_u, at_u) + dot(at_v, at_v) + dot(at_k, at_k));
+  const double length = (wanted - cosine) / (dot(at_u, at_u) + dot(at_v, at_v) + dot(at_k, at_k));
   return scaled(length, k == 0 ? at_k : k == 1 ? at_v : at_u);
 }
 
 /// What one pass finds: of this rank, then of all ranks.
 struct Found {
-  double least_cosine = 1;
-  std::int64_t obtuse = 0;
-  double largest_angle = 0;              // of triangles above 83 degrees
-  std::int64_t first = Smallest::kNone;  // smallest number of a corner of an obtuse triangle
-  Point place{0, 0, 0};                  // its place
+  std::int64_t obtuse = 0, bad = 0;  // see Repair
+  double excess = 0;                 // most that the cosine of an angle is out of bounds
+  std::int64_t first =
+      Smallest::kNone;   // smallest number of a corner of an obtuse triangle, else of a bad one
+  Point place{0, 0, 0};  // its place
   void add(const Found& other) {
-    least_cosine = std::min(least_cosine, other.least_cosine);
-    largest_angle = std::max(largest_angle, other.largest_angle);
+    if (std::pair(other.obtuse == 0, other.first) < std::pair(obtuse == 0, first))
+      first = other.first, place = other.place;
     obtuse += other.obtuse;
-    if (other.first < first) first = other.first, place = other.place;
+    bad += other.bad;
+    excess = std::max(excess, other.excess);
   }
 };
 
@@ -67,7 +70,7 @@ class Repairer {
 
   Repair run() {
     Found best = look();
-    for (int passes = 1; best.least_cosine <= kEnough && passes <= kPatience; ++passes) {
+    for (int passes = 1; best.bad > 0 && passes <= kPatience; ++passes) {
       std::swap(generators_, next_);
       Found found;
       try {
@@ -75,18 +78,16 @@ class Repairer {
       } catch (const BadGenerators&) {  // far from centroidal: moved onto each other
         break;
       }
-      if (found.obtuse > best.obtuse ||
-          (found.obtuse == best.obtuse && found.least_cosine <= best.least_cosine))
-        continue;
-      if (found.obtuse < best.obtuse) passes = 0;
+      const std::pair now(found.obtuse, found.bad), before(best.obtuse, best.bad);
+      if (now > before || (now == before && found.excess >= best.excess)) continue;
+      if (now < before) passes = 0;
       best = found;
       best_ = generators_;
     }
     generators_ = best_;
     std::size_t moved = 0;
     for (std::size_t i = 0; i < best_.size(); ++i) moved += best_[i] != given_[i];
-    return {sum_of_all(evaluator_.ranks(), moved), best.obtuse,
-            std::max(best.largest_angle, std::acos(best.least_cosine)), best.place};
+    return {sum_of_all(evaluator_.ranks(), moved), best.obtuse, best.bad, best.place};
   }
 
  private:
@@ -117,21 +118,18 @@ class Repairer {
     for (std::size_t s = begin; s < end; ++s) {
       const std::size_t j = neighbour(s), k = neighbour(s + 1 == end ? begin : s + 1);
       const Triangle triangle{here.points[i], here.points[j], here.points[k]};
-      double least = 1;
+      double excess = 0;
       for (std::size_t at = 0; at < 3; ++at) {
-        const double cosine = cosine_at(triangle, at);
-        least = std::min(least, cosine);
-        if (cosine >= kWanted) continue;
-        sum = plus(sum, step_of(triangle, at));
+        const double cosine = cosine_at(triangle, at), wanted = std::clamp(cosine, kLeastWanted, kMostWanted);
+        excess = std::max({excess, kCosineOfMost - cosine, cosine - kCosineOfLeast});
+        if (cosine == wanted) continue;
+        sum = plus(sum, step_of(triangle, at, wanted));
         moves = true;
       }
-      if (here.numbers[j] < here.numbers[i] || here.numbers[k] < here.numbers[i]) continue;
-      found.least_cosine = std::min(found.least_cosine, least);
-      if (least >= kWanted) continue;
+      if (excess == 0 || here.numbers[j] < here.numbers[i] || here.numbers[k] < here.numbers[i]) continue;
       const Angles angles =
           angles_of(direction_of(triangle[0]), direction_of(triangle[1]), direction_of(triangle[2]));
-      found.largest_angle = std::max({found.largest_angle, angles.at[0], angles.at[1], angles.at[2]});
-      if (!angles.are_acute) found.add({1, 1, 0, here.numbers[i], triangle[0]});
+      found.add({angles.are_acute ? 0 : 1, 1, excess, here.numbers[i], triangle[0]});
     }
     return moves ? normalized(plus(here.points[i], sum)) : here.points[i];
   }

@@ -14,16 +14,19 @@
 namespace pstripack::scvt {
 
 struct Repair {
-  std::int64_t moved = 0;    ///< generators
-  std::int64_t obtuse = 0;   ///< triangles left that do not hold their circumcentre strictly
-  double largest_angle = 0;  ///< of a triangle, in radians
-  Point place{0, 0, 0};      ///< if triangles are left: the generator with the smallest number at one
+  std::int64_t moved = 0;   ///< generators
+  std::int64_t obtuse = 0;  ///< triangles left that do not hold their circumcentre strictly
+  std::int64_t bad = 0;     ///< triangles left with an angle out of bounds: these, and others
+  Point place{0, 0, 0};  ///< the generator with the smallest number at an obtuse triangle, else at a bad one
 };
 
-/// Moves the corners of triangles with an angle above 83 degrees until all angles are below 84 degrees. So an
-/// edge of a cell is longer than a tenth of its arc: (cot 84 + cot 84)/2. Where that cannot be, as around
-/// four neighbours, it ends with the fewest triangles seen that do not hold their circumcentre.
-/// They are counted exactly, if their sides are longer than 1e-14 rad.
+constexpr double kLeastAngle = 43.5, kMostAngle = 78.5;  ///< degrees
+
+/// Moves the corners of triangles with angles outside 44.5 to 77.5 degrees until all are within these bounds.
+/// So an edge of a cell is longer than a fifth of its arc: (cot 78.5 + cot 78.5)/2. Where that cannot be, as
+/// around four neighbours, it ends with the fewest triangles seen that do not hold their circumcentre, then
+/// the fewest with an angle out of bounds. The former are counted exactly, if their sides are longer than
+/// 1e-14 rad.
 ///
 /// Each pass triangulates and moves all these corners at once, each by what it sees of its own star: so the
 /// result has the same bits for any number of threads and ranks. Collective. Throws what
