@@ -26,7 +26,7 @@ echo "Building in $build ..."
 [ -f $build/CMakeCache.txt ] || generator="-G Ninja"
 # shellcheck disable=SC2086  # two words on purpose
 cmake -S . -B $build ${generator:-} -DCMAKE_BUILD_TYPE=Release -DSTRIPACK_NGMATH="$(realpath "$(find_ngmath)")" \
-  -DPSTRIPACK_TESTS=OFF -DPSTRIPACK_PYTHON=OFF -DPSTRIPACK_WITH_MPI=$mpi
+  -DPSTRIPACK_TESTS=OFF -DPSTRIPACK_PYTHON=OFF -DPSTRIPACK_UNITY=ON -DPSTRIPACK_WITH_MPI=$mpi
 # shellcheck disable=SC2046  # three words or one
 cmake --build $build --parallel "$(nproc)" --target scvt_original scvt_pstripack stripack-compare \
   $([ $mpi = OFF ] || echo scvt_mpi pstripack_run)

@@ -46,7 +46,7 @@ std::string quoted(const std::string& text) {
   return result + '"';
 }
 
-std::ofstream open(const std::string& name) {
+std::ofstream opened(const std::string& name) {
   std::ofstream out(name);
   if (!out) throw std::runtime_error("cannot write " + name);
   return out;
@@ -82,7 +82,7 @@ void print_line(const Case& one) {
              verdict_in_short(result), differences_in_short(result));
 }
 
-CsvFile::CsvFile(const std::string& file) : name_(file), out_(open(file)) {
+CsvFile::CsvFile(const std::string& file) : name_(file), out_(opened(file)) {
   out_ << "nodes,seed,order,precision,n,original_outcome,original_ier,original_valid,original_seconds,abi,"
           "threads,ranks,"
           "partition,ier,valid,same_bytes,seconds";
@@ -112,7 +112,7 @@ void CsvFile::add(const Case& one) {
   if (!(out_ << std::flush)) throw std::runtime_error("cannot write " + name_);
 }
 
-JunitFile::JunitFile(const std::string& file) : name_(file), out_(open(file)) {}
+JunitFile::JunitFile(const std::string& file) : name_(file), out_(opened(file)) {}
 
 void JunitFile::add(const Case& one, double timeout) {
   const Result& r = one.result;

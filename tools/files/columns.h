@@ -2,6 +2,7 @@
 // Values of nodes or faces that are carried from the input file to the output file.
 
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -9,10 +10,12 @@
 
 namespace files {
 
+constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+
 /// One value for each node, or for each face.
 struct Column {
   std::string name, long_name = "", units = "";
-  std::vector<double> numbers = {};     ///< NaN: missing
+  std::vector<double> numbers = {};     ///< or kMissing
   std::vector<std::string> texts = {};  ///< empty: missing; beside numbers: these as they stand in the file
   bool whole = false;                   ///< every number is a 32-bit integer and none is missing
 

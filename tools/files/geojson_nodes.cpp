@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -20,8 +19,6 @@ namespace {
 
 using json = Json;
 using point_sets::excerpt;
-
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<std::string> names_of(const Columns& columns) {
   std::vector<std::string> names;

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
+#include "files/columns.h"
 #include "files/nearest.h"
 #include "numbers.h"
 #include "text_file.h"
@@ -18,7 +18,6 @@ namespace {
 
 using point_sets::excerpt;
 
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::string_view kBlanks = " \t\r\f\v";
 
 [[noreturn]] void fail(const std::string& file, std::size_t line, const std::string& what) {
