@@ -14,14 +14,18 @@ namespace pstripack {
 
 constexpr std::size_t kHugePage = std::size_t{1} << 21;
 
+/// Gives the system this advice on the whole huge pages of this memory. A hint: failure is harmless.
+inline void advise_on_huge_pages(void* begin, std::size_t bytes, int advice) {
+  const auto first = reinterpret_cast<std::uintptr_t>(begin),
+             skipped = (kHugePage - first % kHugePage) % kHugePage;
+  if (bytes >= skipped + kHugePage)
+    madvise(static_cast<unsigned char*>(begin) + skipped, (bytes - skipped) / kHugePage * kHugePage, advice);
+}
+
 /// Asks the system to back the whole huge pages of this memory as such: one page fault for 512.
 inline void ask_for_huge_pages(void* begin, std::size_t bytes) {
 #ifdef MADV_HUGEPAGE
-  const auto first = reinterpret_cast<std::uintptr_t>(begin),
-             skipped = (kHugePage - first % kHugePage) % kHugePage;
-  if (bytes < skipped + kHugePage) return;
-  madvise(static_cast<unsigned char*>(begin) + skipped, (bytes - skipped) / kHugePage * kHugePage,
-          MADV_HUGEPAGE);  // a hint: failure is harmless
+  advise_on_huge_pages(begin, bytes, MADV_HUGEPAGE);
 #endif
 }
 

@@ -1,7 +1,6 @@
 #include "base/free_processors.h"
 
 #include <dirent.h>
-#include <fcntl.h>
 #include <limits.h>
 #include <unistd.h>
 
@@ -10,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "base/control_groups.h"
 #include "base/environment.h"
 #include "base/system.h"
 #if defined(PSTRIPACK_LINUX)
@@ -25,27 +25,6 @@ int positive_variable(const char* name) {
 }
 
 #if defined(PSTRIPACK_LINUX)
-/// The first bytes of a file of the kernel.
-class FileText {
- public:
-  /// The file ROOT/FOLDER/NAME.
-  FileText(const char* root, const char* folder, const char* name) {
-    char path[PATH_MAX];
-    const int length = std::snprintf(path, sizeof path, "%s%s/%s", root, folder, name);
-    if (length < 0 || length >= static_cast<int>(sizeof path)) return;
-    const int file = open(path, O_RDONLY | O_CLOEXEC);
-    if (file < 0) return;
-    const ssize_t size = read(file, text_, sizeof text_ - 1);
-    close(file);
-    text_[std::max<ssize_t>(size, 0)] = '\0';
-  }
-  const char* get() const { return text_; }
-  char* get() { return text_; }
-
- private:
-  char text_[4096] = "";  ///< "" if the file cannot be read
-};
-
 /// The smaller quota; 0 is none.
 int smaller(int a, int b) { return a == 0 || (b != 0 && b < a) ? b : a; }
 
@@ -53,26 +32,6 @@ int smaller(int a, int b) { return a == 0 || (b != 0 && b < a) ? b : a; }
 int quota_in(const char* quota, const char* period) {
   const double allowed = std::atof(quota), of = std::atof(period);
   return allowed > 0 && of > 0 ? std::max(1, static_cast<int>(std::min(allowed / of, 1e6))) : 0;
-}
-
-/// The least quota of the group and of those that it is part of, below the folder `mount`.
-int quota_of_group(const char* root, const char* mount, char* group, bool is_version_2) {
-  int least = 0;
-  for (;;) {
-    char folder[PATH_MAX];
-    std::snprintf(folder, sizeof folder, "%s%s", mount, group);
-    if (is_version_2) {
-      const FileText both(root, folder, "cpu.max");
-      const char* const space = std::strchr(both.get(), ' ');
-      least = smaller(least, space == nullptr ? 0 : quota_in(both.get(), space));
-    } else {
-      const FileText quota(root, folder, "cpu.cfs_quota_us"), period(root, folder, "cpu.cfs_period_us");
-      least = smaller(least, quota_in(quota.get(), period.get()));
-    }
-    char* const last = std::strrchr(group, '/');
-    if (last == nullptr) return least;
-    *last = '\0';
-  }
 }
 
 /// Number of threads of this process that run or wait for a processor.
@@ -129,22 +88,17 @@ int local_ranks() {
 
 #if defined(PSTRIPACK_LINUX)
 int quota_of_control_groups(const char* root) {
-  FileText groups(root, "/proc/self", "cgroup");
   int least = 0;
-  char* rest = nullptr;
-  for (char* line = strtok_r(groups.get(), "\n", &rest); line != nullptr;
-       line = strtok_r(nullptr, "\n", &rest)) {
-    // "4:cpu,cpuacct:/group" of version 1, "0::/group" of version 2
-    char* const controllers = std::strchr(line, ':');
-    char* const group = controllers == nullptr ? nullptr : std::strchr(controllers + 1, ':');
-    if (group == nullptr) continue;
-    const bool is_version_2 = group == controllers + 1;
-    *controllers = *group = ',';
-    const char* const cpu = std::strstr(controllers, ",cpu,");
-    if (is_version_2 || (cpu != nullptr && cpu < group))
-      least = smaller(least, quota_of_group(root, is_version_2 ? "/sys/fs/cgroup" : "/sys/fs/cgroup/cpu",
-                                            group + 1, is_version_2));
-  }
+  for_each_control_group(root, "cpu", [&](const char* folder, bool is_version_2) {
+    if (is_version_2) {
+      const FileText both(root, folder, "cpu.max");
+      const char* const space = std::strchr(both.get(), ' ');
+      least = smaller(least, space == nullptr ? 0 : quota_in(both.get(), space));
+    } else {
+      const FileText quota(root, folder, "cpu.cfs_quota_us"), period(root, folder, "cpu.cfs_period_us");
+      least = smaller(least, quota_in(quota.get(), period.get()));
+    }
+  });
   return least;
 }
 

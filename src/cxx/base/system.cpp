@@ -9,6 +9,8 @@
 #include <cstring>
 #include <thread>
 
+#include "base/control_groups.h"
+
 #if defined(__linux__)
 #include <sched.h>
 #include <sys/random.h>
@@ -115,40 +117,20 @@ ssize_t write_unchecked(int file, const void* bytes, std::size_t size) {
 
 namespace {
 
-/// The number that stands behind `key` in the file, or first if the key is empty; SIZE_MAX if there is none.
-std::size_t number_in(const std::string& path, const char* key = "") {
-  std::size_t number = SIZE_MAX;
-  FILE* const file = fopen(path.c_str(), "re");
-  if (file == nullptr) return number;
-  char line[256];
-  while (number == SIZE_MAX && fgets(line, sizeof line, file) != nullptr)
-    if (const std::size_t length = strlen(key); strncmp(line, key, length) == 0)
-      if (sscanf(line + length, "%zu", &number) != 1 && length == 0) break;  // "max"
-  fclose(file);
-  return number;
+/// The number that stands behind `key`, or first if the key is empty; SIZE_MAX if there is none.
+std::size_t number_in(const FileText& text, const char* key = "") {
+  std::size_t number;
+  const char* const at = strstr(text.get(), key);
+  return at != nullptr && sscanf(at + strlen(key), "%zu", &number) == 1 ? number : SIZE_MAX;
 }
 
 /// The least limit of the control groups that this process is in: each may set one, and so may those above.
 std::size_t limit_of_control_groups() {
   std::size_t least = SIZE_MAX;
-  FILE* const file = fopen("/proc/self/cgroup", "re");
-  if (file == nullptr) return least;
-  char line[PATH_MAX];
-  while (fgets(line, sizeof line, file) != nullptr) {  // NUMBER:CONTROLLERS:PATH
-    const char* const controllers = strchr(line, ':');
-    char* const path = controllers != nullptr ? strchr(line, '/') : nullptr;
-    if (path == nullptr) continue;
-    path[strcspn(path, "\n")] = '\0';
-    const bool second = strncmp(controllers, "::", 2) == 0;  // version 2
-    if (!second && strncmp(controllers, ":memory:", 8) != 0) continue;
-    const std::string root = second ? "/sys/fs/cgroup" : "/sys/fs/cgroup/memory";
-    const char* const name = second ? "/memory.max" : "/memory.limit_in_bytes";
-    for (char* end = path + strlen(path); end != nullptr; end = strrchr(path, '/')) {
-      *end = '\0';
-      least = std::min(least, number_in(root + path + name));
-    }
-  }
-  fclose(file);
+  for_each_control_group("", "memory", [&](const char* folder, bool is_version_2) {
+    const FileText limit("", folder, is_version_2 ? "memory.max" : "memory.limit_in_bytes");
+    least = std::min(least, number_in(limit));
+  });
   return least;
 }
 
@@ -162,9 +144,9 @@ std::size_t memory_limit() {
 }
 
 std::size_t available_memory() {
-  const std::size_t of_machine = number_in("/proc/meminfo", "MemAvailable:"),
+  const std::size_t of_machine = number_in({"", "/proc", "meminfo"}, "MemAvailable:"),
                     limit = limit_of_control_groups(),
-                    own = number_in("/proc/self/status", "VmRSS:");  // both in kB
+                    own = number_in({"", "/proc/self", "status"}, "VmRSS:");  // both in kB
   if (of_machine == SIZE_MAX) return SIZE_MAX;
   return std::min(1024 * of_machine,
                   limit == SIZE_MAX || own == SIZE_MAX ? SIZE_MAX : limit - std::min(limit, 1024 * own));

@@ -113,12 +113,8 @@ Block::Block(std::size_t bytes, std::size_t freed) {
 }
 
 void give_back_pages(void* begin, void* end) noexcept {
-  const auto first = reinterpret_cast<std::uintptr_t>(begin),
-             skipped = (kHugePage - first % kHugePage) % kHugePage;
-  const std::size_t bytes = reinterpret_cast<std::uintptr_t>(end) - first;
-  if (bytes > skipped + kHugePage)
-    madvise(static_cast<unsigned char*>(begin) + skipped, (bytes - skipped) / kHugePage * kHugePage,
-            MADV_DONTNEED);
+  const auto bytes = static_cast<unsigned char*>(end) - static_cast<unsigned char*>(begin);
+  advise_on_huge_pages(begin, static_cast<std::size_t>(bytes), MADV_DONTNEED);
 }
 
 Block::~Block() {

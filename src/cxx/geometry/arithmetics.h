@@ -51,10 +51,8 @@ struct Arithmetic<DoubleDouble> {
   static Corner corner(const Direction& d) {
     return {{d.high.x, d.low.x}, {d.high.y, d.low.y}, {d.high.z, d.low.z}};
   }
-  static Corner side(const Corner& to, const Corner& from) {
-    return {to.x - from.x, to.y - from.y, to.z - from.z};
-  }
-  static Corner sum(const Corner& a, const Corner& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  static Corner side(const Corner& to, const Corner& from) { return minus(to, from); }
+  static Corner sum(const Corner& a, const Corner& b) { return plus(a, b); }
   static const Corner& position(const Corner& d) { return d; }
   static double value(const DoubleDouble& v, int exponent = 0) { return std::ldexp(v.high, exponent); }
   static DoubleDouble square_root(const DoubleDouble& v) { return sqrt(v); }
@@ -72,10 +70,8 @@ struct Arithmetic<Real<bits>> {
     const T length = sqrt(dot(p, p));
     return {p.x / length, p.y / length, p.z / length};
   }
-  static Corner side(const Corner& to, const Corner& from) {
-    return {to.x - from.x, to.y - from.y, to.z - from.z};
-  }
-  static Corner sum(const Corner& a, const Corner& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  static Corner side(const Corner& to, const Corner& from) { return minus(to, from); }
+  static Corner sum(const Corner& a, const Corner& b) { return plus(a, b); }
   static const Corner& position(const Corner& d) { return d; }
   static double value(const T& v, int exponent = 0) { return static_cast<double>(T(ldexp(v, exponent))); }
   static T square_root(const T& v) { return sqrt(v); }

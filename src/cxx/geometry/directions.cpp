@@ -425,9 +425,8 @@ Directions::Directions(const Point* points, std::size_t n, std::size_t capacity)
   });
   if (are_units) return;
   low_ = BlockArray<Point>(unit_.size());
-  parallel_pieces(n, threads_for(n), [&](std::size_t first, std::size_t last, int) {
-    for (std::size_t i = first; i < last; ++i)
-      if (std::isnan(unit_[i].shrink)) store_other(static_cast<index_t>(i));
+  parallel_for(n, n, [&](std::size_t i) {
+    if (std::isnan(unit_[i].shrink)) store_other(static_cast<index_t>(i));
   });
 }
 

@@ -122,7 +122,6 @@ struct TriangleBySides {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 double square_of(const Point& a) { return dot(a, a); }
-Point scaled(double factor, const Point& a) { return {factor * a.x, factor * a.y, factor * a.z}; }
 
 /// False if the triangle is too small or too flat for the arithmetic T.
 template <class T>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
 
 namespace pstripack {
 
@@ -20,6 +21,14 @@ inline bool operator!=(const Point& a, const Point& b) { return !(a == b); }
 template <class T>
 Vector3<T> minus(const Vector3<T>& a, const Vector3<T>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class T>
+Vector3<T> plus(const Vector3<T>& a, const Vector3<T>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class T>
+Vector3<T> scaled(std::common_type_t<T> factor, const Vector3<T>& a) {
+  return {factor * a.x, factor * a.y, factor * a.z};
 }
 template <class T>
 T dot(const Vector3<T>& a, const Vector3<T>& b) {

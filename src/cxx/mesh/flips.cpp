@@ -43,11 +43,9 @@ MovingMesh::MovingMesh(const Point* p, std::size_t n, const std::int32_t* list, 
   if (n > 0) insertion_order(p, n, order_, workspace_);
   workspace_.next_phase();
   keep_arrays();
-  parallel_pieces(n, threads_for(n), [&](std::size_t first, std::size_t last, int) {
-    for (std::size_t v = first; v < last; ++v) {
-      inside_[order_[v]] = static_cast<CurveNode>(v);
-      nodes_[v] = p[order_[v]];
-    }
+  parallel_for(n, n, [&](std::size_t v) {
+    inside_[order_[v]] = static_cast<CurveNode>(v);
+    nodes_[v] = p[order_[v]];
   });
   std::copy(p + n, p + all_, nodes_ + n);
   const auto slot = [&](std::size_t k) { return static_cast<std::size_t>(k == 0 ? 0 : lend[k - 1]); };

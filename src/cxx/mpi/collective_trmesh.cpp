@@ -1,6 +1,7 @@
 #include "mpi/collective_trmesh.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <iterator>
@@ -22,30 +23,25 @@
 namespace pstripack {
 namespace {
 
-/// Hash of the array, 64 bits. The hashes of its blocks are added, so that the number of threads does not
-/// matter.
-std::uint64_t hash_of(const void* array, std::size_t size, std::uint64_t seed) {
-  constexpr std::size_t kBlock = 1 << 16, kLanes = 4, kStep = kLanes * sizeof(std::uint64_t);
-  const auto* const bytes = static_cast<const unsigned char*>(array);
-  const std::size_t blocks = (size + kBlock - 1) / kBlock;
-  std::vector<std::uint64_t> hash(blocks);
-  parallel_pieces(blocks, threads_for(size / 64), [&](std::size_t first, std::size_t last, int) {
-    for (std::size_t b = first; b < last; ++b) {
-      const std::size_t begin = b * kBlock, end = std::min(begin + kBlock, size);
-      std::uint64_t lane[kLanes] = {seed, b, size, 1}, word[kLanes];
-      for (std::size_t at = begin; at < end; at += kStep) {
-        if (end - at < kStep) std::memset(word, 0, sizeof word);
-        std::memcpy(word, bytes + at, std::min(kStep, end - at));
-        for (std::size_t i = 0; i < kLanes; ++i) {
-          lane[i] = (lane[i] ^ word[i]) * 0x9e3779b97f4a7c15u;
-          lane[i] ^= lane[i] >> 32;
+/// Hash of the first n nodes, 64 bits: a sum over the nodes, so that the number of threads does not matter.
+std::uint64_t hash_of(const NodeArrays& nodes, std::size_t n) {
+  std::atomic<std::uint64_t> sum{splitmix64(nodes.real_bytes())};
+  nodes.visit([&](const auto& node) {
+    parallel_pieces(n, threads_for(n / 4), [&](std::size_t first, std::size_t last, int) {
+      std::uint64_t of_piece = 0;
+      for (std::size_t i = first; i < last; ++i) {
+        const Point p = node(i);
+        std::uint64_t hash = i, words[3];
+        std::memcpy(words, &p, sizeof p);
+        for (const std::uint64_t word : words) {
+          hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
+          hash ^= hash >> 32;
         }
+        of_piece += hash;
       }
-      hash[b] = splitmix64(lane[0] + splitmix64(lane[1] + splitmix64(lane[2] + splitmix64(lane[3]))));
-    }
+      sum += of_piece;
+    });
   });
-  std::uint64_t sum = splitmix64(seed);
-  for (const std::uint64_t h : hash) sum += h;
   return sum;
 }
 
@@ -111,14 +107,13 @@ Share take_slice(const TrmeshCall& call, bool wants_cost, MpiCommunicator& ranks
   Largest most_n{n}, most_hash;
   OfRank0 partition(ranks, options_from_environment(0).partition);
   OnAny reported{ranks.rank() == 0 && wants_cost};
-  std::uint64_t hash = call.nodes.real_bytes();
+  std::int64_t hash = 0;
   in_agreement(
       ranks,
       [&] {
         if (count_code != 0) return;
-        const std::size_t bytes = static_cast<std::size_t>(n) * call.nodes.real_bytes();
-        for (int axis = 0; axis < 3; ++axis) hash = hash_of(call.nodes.array(axis), bytes, hash);
-        least_hash.value = most_hash.value = static_cast<std::int64_t>(hash);
+        hash = static_cast<std::int64_t>(hash_of(call.nodes, static_cast<std::size_t>(n)));
+        least_hash.value = most_hash.value = hash;
         share.set_slice(ranks);
         share.nodes = call.nodes.from(share.first);
         share.check_slice(bad);
@@ -130,7 +125,7 @@ Share take_slice(const TrmeshCall& call, bool wants_cost, MpiCommunicator& ranks
   header.wants_cost = reported.value;
   header.partition = partition.value;
   if (least_n.value != most_n.value || least_hash.value != most_hash.value)
-    share.result = disagreement(n, static_cast<std::int64_t>(hash), ranks);
+    share.result = disagreement(n, hash, ranks);
   else if (count_code != 0)
     share.result = {count_code};
   else if (bad.exists())

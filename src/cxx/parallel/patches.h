@@ -58,7 +58,7 @@ Patches<Int> triangulate_patches(Delivery& delivery, const Division& division, C
       Workspace part(patches.memory.data() + begin[k], begin[k + 1] - begin[k]);
       patch.set_up(division.closing, part);
     });
-    delivery.nodes = {};
+    delivery.nodes = {};  // an idle block from here on
     if (patches.memory.gives_back_pages()) free_idle_blocks();
   });
   // Ranks have agreed that no patch has seen a hidden node yet, so none is triangulated for nothing.

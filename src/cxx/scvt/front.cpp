@@ -39,12 +39,9 @@ struct Samples {
     for (int face = 0; face < 6; ++face)
       for (int i = 0; i < m; ++i)
         for (int j = 0; j < m; ++j) {
-          const double side = face % 2 == 0 ? 1 : -1;
           const double u = 2 * (i + random()) / m - 1, v = 2 * (j + random()) / m - 1;
           const double square = 1 + u * u + v * v;
-          place.push_back(normalized(face < 2   ? Point{side, u, v}
-                                     : face < 4 ? Point{u, side, v}
-                                                : Point{u, v, side}));
+          place.push_back(on_face(face, u, v));
           area.push_back(4 / (static_cast<double>(m) * m * square * std::sqrt(square)));
         }
   }

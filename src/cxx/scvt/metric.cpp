@@ -15,13 +15,6 @@ constexpr double kApart = 1e-12;  ///< square of a distance: floats do not tell 
 constexpr int kPasses = 8;
 constexpr double kMost = 2, kLeast = kMost / (kPasses * kPasses);  ///< eigenvalues of A/D
 
-template <class Body>
-void for_each(std::size_t n, const Body& body) {
-  parallel_pieces(n, threads_for(10 * n), [&](std::size_t first, std::size_t last, int) {
-    for (std::size_t i = first; i < last; ++i) body(i);
-  });
-}
-
 Point at_right_angles(const Point& v, const Point& g) { return minus(v, scaled(dot(v, g), g)); }
 
 using Four = float __attribute__((vector_size(16)));
@@ -48,20 +41,20 @@ void Metric::set(const Neighbourhood& here, const Cells& cells) {
     for (auto* const array : {&share_, &diagonal_}) array->resize(all);
     for (auto* const array : {&points_, &rest_, &step_, &next_}) array->resize(all);
   });
-  for_each(n, [&](std::size_t i) {
+  parallel_for(n, 10 * n, [&](std::size_t i) {
     share_[i] = cells.mass[i] / static_cast<double>(stars_.end_of(i) - stars_.begin_of(i));
   });
   fill(share_, of_doubles_);
-  for_each(all, [&](std::size_t i) { points_[i].f = four(here.points[i]); });
-  for_each(n, [&](std::size_t i) {
+  parallel_for(all, 10 * all, [&](std::size_t i) { points_[i].f = four(here.points[i]); });
+  parallel_for(n, 10 * n, [&](std::size_t i) {
     const Point& g = here.points[i];
     Point squares{0, 0, 0}, products{0, 0, 0};  // of i's springs: xx, yy, zz and xy, yz, zx
     for (std::size_t s = stars_.begin_of(i); s < stars_.end_of(i); ++s) {
       const auto j = static_cast<std::size_t>(stars_.neighbour[s]) - 1;
       const Point e = minus(here.points[j], g), t = at_right_angles(e, g);
       const double k = (share_[i] + share_[j]) / (share_[i] * pstripack::dot(e, e));
-      squares = plus(squares, scaled(k, {t.x * t.x, t.y * t.y, t.z * t.z}));
-      products = plus(products, scaled(k, {t.x * t.y, t.y * t.z, t.z * t.x}));
+      squares = plus(squares, scaled(k, Point{t.x * t.x, t.y * t.y, t.z * t.z}));
+      products = plus(products, scaled(k, Point{t.x * t.y, t.y * t.z, t.z * t.x}));
       // Without it solve() leaves out an arc; the metric stays symmetric and positive.
       spring_[s] = pstripack::dot(e, e) < kApart ? 0 : static_cast<float>(k);
     }
@@ -78,7 +71,7 @@ void Metric::set(const Neighbourhood& here, const Cells& cells) {
 
 void Metric::solve(std::vector<Point>& v) {
   constexpr double kMiddle = (kMost + kLeast) / 2, kRadius = (kMost - kLeast) / 2;
-  for_each(v.size(), [&](std::size_t i) {
+  parallel_for(v.size(), 10 * v.size(), [&](std::size_t i) {
     const Four r = four(scaled(1 / diagonal_[i], v[i])), g = points_[i].f;
     rest_[i].f = r - times(dot(r, g), g);
     step_[i].f = times(static_cast<float>(1 / kMiddle), rest_[i].f);
@@ -91,7 +84,7 @@ void Metric::solve(std::vector<Point>& v) {
     const auto of_step = static_cast<float>(ratio * before),
                of_rest = static_cast<float>(2 * ratio / kRadius);
     fill(step_, of_vectors_);
-    for_each(v.size(), [&](std::size_t i) {
+    parallel_for(v.size(), 10 * v.size(), [&](std::size_t i) {
       const Four g = points_[i].f, u = step_[i].f;
       Four force{0, 0, 0, 0};
       for (std::size_t s = stars_.begin_of(i); s < stars_.end_of(i); ++s) {

@@ -23,13 +23,6 @@ constexpr int kTrials = 6;            ///< steps along one direction
 constexpr double kSufficient = 1e-4;  ///< required part of the decrease predicted by the slope (Armijo)
 constexpr double kLongest = 1;        ///< longest step, in root mean square radii of the cell
 
-template <class Body>
-void for_each(std::size_t n, const Body& body) {
-  parallel_pieces(n, threads_for(n), [&](std::size_t first, std::size_t last, int) {
-    for (std::size_t i = first; i < last; ++i) body(i);
-  });
-}
-
 /// The cells of generators, and what is summed up over them.
 struct Place {
   Cells cells;
@@ -182,7 +175,7 @@ class Minimizer {
   bool lloyd_step() {
     double part = 1;
     for (int trial = 0; trial < kTrials; ++trial, part /= 2) {
-      for_each(n_, [&](std::size_t i) {
+      parallel_for(n_, n_, [&](std::size_t i) {
         const Point &g = state_.generators[i], c = centroid(here_.cells, i, g);
         trial_[i] = part == 1 ? c : normalized(plus(g, scaled(part, minus(c, g))));
       });
@@ -208,7 +201,7 @@ class Minimizer {
     most = std::sqrt(evaluator_.largest(most));
     double length = most > kLongest ? kLongest / most : 1;
     for (int trial = 0; trial < kTrials; ++trial) {
-      for_each(n_, [&](std::size_t i) {
+      parallel_for(n_, n_, [&](std::size_t i) {
         trial_[i] = normalized(plus(state_.generators[i], scaled(length, direction_[i])));
       });
       evaluate_trial();
@@ -232,7 +225,7 @@ class Minimizer {
       spare_.step.resize(n_);
       spare_.change.resize(n_);
     });
-    for_each(n_, [&](std::size_t i) {
+    parallel_for(n_, n_, [&](std::size_t i) {
       spare_.step[i] = single(minus(trial_[i], state_.generators[i]));
       spare_.change[i] = single(scaled(-2, minus(there_.cells.pull[i], here_.cells.pull[i])));
     });
@@ -259,7 +252,7 @@ class Minimizer {
   void set_direction() {
     const std::size_t count = state_.pairs.size();
     std::array<double, kPairs> share;
-    for_each(n_, [&](std::size_t i) { direction_[i] = scaled(2, here_.cells.pull[i]); });
+    parallel_for(n_, n_, [&](std::size_t i) { direction_[i] = scaled(2, here_.cells.pull[i]); });
     for (std::size_t k = count; k-- > 0;) {
       const SinglePoint* const step = state_.pairs[k].step.data();
       const SinglePoint* const later = k + 1 < count ? state_.pairs[k + 1].change.data() : nullptr;
@@ -272,7 +265,7 @@ class Minimizer {
     }
     if (count > 0) {
       const SinglePoint* const first = state_.pairs[0].change.data();
-      for_each(n_, [&](std::size_t i) {
+      parallel_for(n_, n_, [&](std::size_t i) {
         direction_[i] = minus(direction_[i], scaled(share[0], point(first[i])));
       });
     }
@@ -291,7 +284,7 @@ class Minimizer {
       add = share[k] - other;
     }
     const SinglePoint* const last = count > 0 ? state_.pairs[count - 1].step.data() : nullptr;
-    for_each(n_, [&](std::size_t i) {
+    parallel_for(n_, n_, [&](std::size_t i) {
       const Point& g = state_.generators[i];
       if (last != nullptr) direction_[i] = plus(direction_[i], scaled(add, point(last[i])));
       direction_[i] = minus(direction_[i], scaled(dot(direction_[i], g), g));

@@ -32,10 +32,8 @@ void integrate(const Density& widths, std::vector<Square>& squares) {
         for (int j = 0; j < 3; ++j) {
           const Square& square = squares[s];
           const double u = square.u + kPlaces[i] * square.side, v = square.v + kPlaces[j] * square.side;
-          const double side = square.face % 2 == 0 ? 1 : -1, length = 1 + u * u + v * v;
-          places.push_back(normalized(square.face < 2   ? Point{side, u, v}
-                                      : square.face < 4 ? Point{u, side, v}
-                                                        : Point{u, v, side}));
+          const double length = 1 + u * u + v * v;
+          places.push_back(on_face(square.face, u, v));
           weights.push_back(kWeights[i] * kWeights[j] / 324 * square.side * square.side /
                             (length * std::sqrt(length)));
         }

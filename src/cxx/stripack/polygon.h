@@ -33,16 +33,6 @@ enum class PolygonStatus {
 };
 
 template <class Real>
-Vector<Real> operator+(const Vector<Real>& a, const Vector<Real>& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-
-template <class Real>
-Vector<Real> operator*(Real factor, const Vector<Real>& a) {
-  return {factor * a.x, factor * a.y, factor * a.z};
-}
-
-template <class Real>
 Vector<Real> operator/(const Vector<Real>& a, Real divisor) {
   return {a.x / divisor, a.y / divisor, a.z / divisor};
 }
@@ -64,8 +54,7 @@ IntersectionStatus cross_arc(const Vector<Real>& p1, const Vector<Real>& p2, con
   const Real height_1 = dot(normal, p1), height_2 = dot(normal, p2);
   if (height_1 == height_2) return IntersectionStatus::parallel;
   const Real t = height_1 / (height_1 - height_2);
-  const Vector<Real> chord{p2.x - p1.x, p2.y - p1.y, p2.z - p1.z};
-  const Vector<Real> on_chord = p1 + t * chord;
+  const Vector<Real> on_chord = plus(p1, scaled(t, minus(p2, p1)));
   const Real square = dot(on_chord, on_chord);
   if (square == 0) return IntersectionStatus::antipodal;
   point = on_chord / std::sqrt(square);
@@ -78,7 +67,7 @@ bool left_of_middle(const Vector<Real>& a, const Vector<Real>& b, Vector<Real>& 
   const Vector<Real> normal = cross(a, b);
   const Real size = length(normal);
   if (size == 0) return false;
-  const Vector<Real> beside = (a + b) + (Real(1e-3) * normal) / size;
+  const Vector<Real> beside = plus(plus(a, b), scaled(Real(1e-3), normal) / size);
   q = beside / length(beside);
   return true;
 }
@@ -214,7 +203,7 @@ class ExactPolygon {
     if (side == 0) return is_on(p_, a, b) ? Answer::on_border : Answer::unknown;
     bool even = true;
     // Eight roundings, of terms that are `least` / 2^-48 at most together.
-    const Point normal = pstripack::cross(p_, {a.x + b.x, a.y + b.y, a.z + b.z});
+    const Point normal = pstripack::cross(p_, plus(a, b));
     const double least = 0x1p-48 * size(p_) * (size(a) + size(b));
     const bool are_moderate =
         is_moderate_square(dot(p_, p_)) && is_moderate_square(dot(a, a)) && is_moderate_square(dot(b, b));

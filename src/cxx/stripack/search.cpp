@@ -1,9 +1,9 @@
 #include "stripack/search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
-#include <iterator>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -310,41 +310,30 @@ class GivenNodes {
  public:
   explicit GivenNodes(Int count) {
     while (std::int64_t{1} << (64 - shift_) < kCellsANode * std::int64_t{count}) --shift_;
-    last_ = (std::size_t{1} << (64 - shift_)) - 1;
-    if (last_ >= std::size(few_)) {
-      more_.resize(last_ + 1);
-      cells_ = more_.data();
-    } else {
-      std::fill_n(few_, last_ + 1, 0);
-    }
+    const std::size_t cells = std::size_t{1} << (64 - shift_);
+    if (cells > few_.size()) more_.resize(cells);
+    cells_ = more_.empty() ? few_.data() : more_.data();
+    std::fill_n(cells_, cells, 0);
+    last_ = cells - 1;
   }
   GivenNodes(const GivenNodes&) = delete;
   GivenNodes& operator=(const GivenNodes&) = delete;
 
-  /// False if the node is in the table already.
-  bool insert(Int node) {
-    Int& cell = cells_[find(node)];
-    const bool is_new = cell != node;
-    cell = node;
-    return is_new;
+  /// The cell of the node, or the empty one where it would go. Fibonacci hashing: splitmix64 would take GETNP
+  /// 20 % longer.
+  Int& operator[](Int node) {
+    std::size_t cell = static_cast<std::uint64_t>(node) * 0x9E3779B97F4A7C15 >> shift_;
+    while (cells_[cell] != 0 && cells_[cell] != node) cell = (cell + 1) & last_;
+    return cells_[cell];
   }
-  bool contains(Int node) const { return cells_[find(node)] == node; }
 
  private:
   static constexpr int kCellsANode = 16;  // so many that collisions are rare
 
-  /// The cell of the node, or the empty one where it would go. Fibonacci hashing: splitmix64 would take GETNP
-  /// 20 % longer.
-  std::size_t find(Int node) const {
-    std::size_t cell = static_cast<std::uint64_t>(node) * 0x9E3779B97F4A7C15 >> shift_;
-    while (cells_[cell] != 0 && cells_[cell] != node) cell = (cell + 1) & last_;
-    return cell;
-  }
-
   int shift_ = 60;
   std::size_t last_;
-  Int few_[kCellsANode * 256];
-  Int* cells_ = few_;
+  Int* cells_;
+  std::array<Int, 256 * kCellsANode> few_;
   std::vector<Int> more_;
 };
 
@@ -429,8 +418,11 @@ template <class Real, class Int>
 NextNearestStatus nearest_by_cosines(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int given,
                                      Int* npts, Real& distance) {
   GivenNodes<Int> taken(given);
-  for (Int i = 0; i < given; ++i)
-    if (npts[i] < 1 || !taken.insert(npts[i])) return NextNearestStatus::bad_nodes;
+  for (Int i = 0; i < given; ++i) {
+    Int& cell = taken[npts[i]];
+    if (npts[i] < 1 || cell == npts[i]) return NextNearestStatus::bad_nodes;
+    cell = npts[i];
+  }
   const ListReader<Int> reader(lists);
   for (Int i = 0; i < given; ++i) reader.prefetch_list(npts[i]);  // half of the time for N = 1e6
   const Vector<Real> centre = nodes[npts[0]];
@@ -438,7 +430,7 @@ NextNearestStatus nearest_by_cosines(const ListsView<Int>& lists, const Nodes<Re
   Real greatest = -2, not_finite = 0;  // NaN if a distance was not finite
   for (Int i = 0; i < given; ++i)
     if (!each_neighbour(reader, npts[i], [&](Int node) {
-          if (taken.contains(node)) return;
+          if (taken[node] == node) return;
           const Real cosine = dot(nodes[node], centre);
           not_finite += 0 * cosine;
           if (!(cosine > greatest)) return;

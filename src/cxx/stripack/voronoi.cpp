@@ -10,7 +10,9 @@
 #include <initializer_list>
 #include <limits>
 #include <optional>
+#include <queue>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "base/parallel_for.h"
@@ -25,9 +27,7 @@ namespace pstripack {
 
 template <class Real>
 bool circumcentre(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c, Vector<Real>& centre) {
-  const Vector<Real> e{b.x - a.x, b.y - a.y, b.z - a.z};
-  const Vector<Real> f{c.x - a.x, c.y - a.y, c.z - a.z};
-  const Vector<Real> normal{e.y * f.z - e.z * f.y, e.z * f.x - e.x * f.z, e.x * f.y - e.y * f.x};
+  const Vector<Real> normal = cross(minus(b, a), minus(c, a));
   const Real square = dot(normal, normal);
   if (square == 0) return false;
   const Real length = std::sqrt(square);
@@ -43,10 +43,7 @@ namespace {
 template <class Int>
 class Agenda {
  public:
-  explicit Agenda(std::size_t n) : due_(n + 1, 0) {
-    this_pass_.reserve(n);
-    next_pass_.reserve(n);
-  }
+  explicit Agenda(std::size_t n) : due_(n + 1, 0), this_pass_(with_room(n)), next_pass_(with_room(n)) {}
 
   void add_all() {
     for (Int g = static_cast<Int>(due_.size()) - 1; g >= 1; --g) add(g);
@@ -54,30 +51,28 @@ class Agenda {
   void add(Int column) {
     if (due_[static_cast<std::size_t>(column)]) return;
     due_[static_cast<std::size_t>(column)] = 1;
-    if (column > now_) {
-      this_pass_.push_back(column);
-      std::push_heap(this_pass_.begin(), this_pass_.end(), std::greater<Int>());
-    } else {
-      next_pass_.push_back(column);
-    }
+    (column > now_ ? this_pass_ : next_pass_).push(column);
   }
   /// The next column to test; 0 if there is none.
   Int take() {
-    if (this_pass_.empty()) {
-      this_pass_.swap(next_pass_);
-      std::make_heap(this_pass_.begin(), this_pass_.end(), std::greater<Int>());
-      if (this_pass_.empty()) return now_ = 0;
-    }
-    std::pop_heap(this_pass_.begin(), this_pass_.end(), std::greater<Int>());
-    now_ = this_pass_.back();
-    this_pass_.pop_back();
+    if (this_pass_.empty()) this_pass_.swap(next_pass_);
+    if (this_pass_.empty()) return now_ = 0;
+    now_ = this_pass_.top();
+    this_pass_.pop();
     due_[static_cast<std::size_t>(now_)] = 0;
     return now_;
   }
 
  private:
+  using Heap = std::priority_queue<Int, std::vector<Int>, std::greater<Int>>;  // the smallest first
+  static Heap with_room(std::size_t n) {
+    std::vector<Int> room;
+    room.reserve(n);
+    return Heap(std::greater<Int>(), std::move(room));
+  }
+
   std::vector<char> due_;
-  std::vector<Int> this_pass_, next_pass_;  // a heap, smallest first; unordered
+  Heap this_pass_, next_pass_;
   Int now_ = 0;
 };
 
@@ -282,9 +277,8 @@ class Voronoi {
     if (!rings_.in_slot_order()) left_ = BlockArray<Int>(index(rings_.arcs()));
     if (directions_ != nullptr) return true;
     position_ = BlockArray<Position>(lists_.view().n);
-    parallel_pieces(lists_.view().n, threads_, [this](std::size_t begin, std::size_t end, int) {
-      for (std::size_t i = begin; i < end; ++i) position_[i].of = nodes_[static_cast<Int>(i) + 1];
-    });
+    parallel_for(lists_.view().n, lists_.view().n,
+                 [this](std::size_t i) { position_[i].of = nodes_[static_cast<Int>(i) + 1]; });
     return true;
   }
 
