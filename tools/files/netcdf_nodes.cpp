@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/system.h"
 #include "files/measures.h"
 #include "files/nearest.h"
 #include "files/netcdf_file.h"
@@ -276,6 +277,20 @@ struct Places {
   std::string names = "";  ///< "lon lat in degrees"
 };
 
+/// Throws if there are too many nodes, or too many values for the memory.
+void expect_to_fit(const File& file, const Variable& lat, std::size_t rows, std::size_t columns) {
+  if (!file.options().only_axes) file.expect_few(lat, rows, columns);
+  constexpr double kBytes = 28;  // of a value, while widths are limited
+  const double bytes = kBytes * static_cast<double>(rows) * static_cast<double>(columns),
+               most = static_cast<double>(pstripack::available_memory()), finer = std::sqrt(bytes / most);
+  if (finer > 1)
+    file.fail(fmt::format(
+        "a grid of {} times {} values needs about {:.3g} GB, and {:.3g} GB are free: make it coarser, "
+        "say by cdo remapbil,r{:.0f}x{:.0f}",
+        rows, columns, bytes / 1e9, most / 1e9, std::floor(static_cast<double>(columns) / finer),
+        std::floor(static_cast<double>(rows) / finer)));
+}
+
 /// If one is in degrees and the other in radians, both become degrees.
 Places from_angles(const File& file, const Pair& pair) {
   const Variable &lon = *pair.first, &lat = *pair.second;
@@ -302,13 +317,13 @@ Places from_angles(const File& file, const Pair& pair) {
     if (places.dimensions.empty())
       file.fail(fmt::format("variables {} and {}: expected one shape, or two axes of one dimension each",
                             excerpt(lon.path), excerpt(lat.path)));
-    file.expect_few(lat, given.lat.size(), given.lon.size());
+    expect_to_fit(file, lat, given.lat.size(), given.lon.size());
     if (file.is_read_in_parts())
       file.fail("a grid: several ranks read a list of nodes, each its part: use `pstripack convert`");
     const LonLat axes = angles_of({}, given, true);
     places.grid = {axes.lon, axes.lat};
     const bool degrees = given.degrees;
-    given = Grid{given.lon, given.lat}.places();
+    given = file.options().only_axes ? LonLat() : Grid{given.lon, given.lat}.places();
     given.degrees = degrees;
   }
   places.points = points_of(given);
@@ -602,7 +617,8 @@ Nodes read_netcdf(const std::string& name, const ReadOptions& options, const std
   nodes.grid = std::move(places.grid);
   for (const int dimension : places.dimensions) nodes.shape.push_back(file.length_of(dimension));
   if (file.is_read_in_parts()) nodes.before = file.before(nodes.shape.at(0));
-  if (nodes.points.empty() && !file.is_read_in_parts()) file.fail("no nodes: the variables are empty");
+  if (nodes.points.empty() && nodes.grid.lon.empty() && !file.is_read_in_parts())
+    file.fail("no nodes: the variables are empty");
   if (options.with_values) {
     std::string variable = options.variable;
     if (variable.empty() && !wanted.empty()) variable = wanted[0];

@@ -31,6 +31,7 @@ struct ReadOptions {
   bool with_cells = false;                    ///< GeoJSON: the nodes of cells that `voronoi` has written
   bool with_values = false;                   ///< also read one value per node; not of raw doubles
   bool may_have_value = false;  ///< a column of values may follow in text without a header; it is not read
+  bool only_axes = false;       ///< of a grid no points and angles, which take 40 bytes a node
   bool keep_missing = false;    ///< coordinates may be missing: NaN; else an error
   std::string variable;         ///< its name, or in text its number; empty: the column after the coordinates
   std::vector<std::string> usual_variables =

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <deque>
+#include <numeric>
 #include <queue>
 #include <stdexcept>
 #include <utility>
@@ -34,32 +36,6 @@ std::unique_ptr<Density> density_of_widths(double least, DensityBy::Function wid
       });
 }
 
-/// The integral of 1/(sqrt(3)/2 w^2): Gauss' rule with three points along each side of a cell of the grid.
-double cells_of(const Table& t, double radius) {
-  constexpr double kPlaces[] = {-0.7745966692414834, 0, 0.7745966692414834}, kWeights[] = {5, 8, 5};  // / 18
-  double cells = 0;
-  for (std::size_t row = 0; row + 1 < t.lat.size(); ++row) {
-    const double south = std::sin(t.lat[row] * kDegree), north = std::sin(t.lat[row + 1] * kDegree);
-    const double height = t.lat[row + 1] - t.lat[row];
-    for (int j = 0; j < 3; ++j) {
-      const double z = (south + north + kPlaces[j] * (north - south)) / 2;
-      const double up = (std::asin(z) / kDegree - t.lat[row]) / height;
-      double sum = 0;
-      for (std::size_t column = 0; column + 1 < t.lon.size(); ++column) {
-        const double* const low = &t.values[row * t.lon.size() + column];
-        const double* const high = low + t.lon.size();
-        const double west = low[0] + up * (high[0] - low[0]), east = low[1] + up * (high[1] - low[1]);
-        for (int i = 0; i < 3; ++i) {
-          const double ratio = radius / (west + (1 + kPlaces[i]) / 2 * (east - west));
-          sum += kWeights[i] / 18 * ratio * ratio * (t.lon[column + 1] - t.lon[column]) * kDegree;
-        }
-      }
-      cells += kWeights[j] / 18 * (north - south) * sum / (std::sqrt(3) / 2);
-    }
-  }
-  return cells;
-}
-
 // Each place of the grid knows its source: the place y whose cone w(y) + gradient d(x,y) is the lowest one
 // known at x. A place that is lowered offers its source to its eight neighbours, the lowest place first. So
 // distances are lengths of arcs, not of paths along the grid (Danielsson, Comput. Graph. Image Process. 14,
@@ -67,45 +43,40 @@ double cells_of(const Table& t, double radius) {
 class GradientLimit {
  public:
   GradientLimit(Table& table, double gradient, double radius)
-      : columns_(table.lon.size() - 1),
-        rows_(table.lat.size()),
-        slope_(gradient * radius),
-        radius_(radius),
-        table_(table) {
-    if (rows_ * columns_ > 0xffffffff) throw std::runtime_error("the grid has more than 4e9 places");
-    for (std::size_t c = 0; c < columns_; ++c)
-      east_.push_back({std::cos(table.lon[c] * kDegree), std::sin(table.lon[c] * kDegree), 0});
+      : row_(table.lon.size()), slope_(gradient * radius), radius_(radius), table_(table) {
+    if (table.values.size() > 0xffffffff) throw std::runtime_error("the grid has more than 4e9 places");
+    for (const double lon : table.lon) east_.push_back({std::cos(lon * kDegree), std::sin(lon * kDegree), 0});
     for (const double lat : table.lat)
       up_.push_back({std::fabs(lat) == 90 ? 0 : std::cos(lat * kDegree), 0, std::sin(lat * kDegree)});
-    for (std::size_t r = 0; r < rows_; ++r)
-      for (std::size_t c = 0; c < columns_; ++c) given_.push_back(table.values[r * (columns_ + 1) + c]);
-    lowered_ = given_;
+    given_.assign(table.values.begin(), table.values.end());
     source_.resize(given_.size());
-    for (std::size_t i = 0; i < given_.size(); ++i) source_[i] = static_cast<std::uint32_t>(i);
+    std::iota(source_.begin(), source_.end(), std::uint32_t{0});
   }
 
-  /// `inside`: by place. Only places whose entry is `sources` keep others low, and only other ones are
-  /// lowered.
+  /// `inside`: by place, without the last column. Only places whose entry is `sources` keep others low, and
+  /// only other ones are lowered.
   Lowered run(const std::vector<bool>* inside = nullptr, bool sources = true) {
-    for (std::size_t i = 0; i < given_.size(); ++i) {
-      if (inside != nullptr && (*inside)[i] != sources) continue;
-      bool is_source = false;
-      for_each_neighbour(i, [&](std::size_t n) {  // a chord is shorter than its arc
-        is_source = is_source || given_[i] + slope_ * chord(i, n) < given_[n];
+    std::vector<double>& width = table_.values;
+    const auto is_source = [&](Place i) { return inside == nullptr || (*inside)[i - i / row_] == sources; };
+    for_each_place([&](Place i) {
+      if (!is_source(i)) return;
+      bool lowers = false;
+      for_each_neighbour(i, [&](Place n) {  // a chord is shorter than its arc
+        lowers = lowers || (width[i] < width[n] && width[i] + slope_ * chord(i, n) < width[n]);
       });
-      if (is_source) queue_.emplace(-given_[i], i);
-    }
+      if (lowers) queue_.emplace(-static_cast<float>(width[i]), i);
+    });
     while (!queue_.empty()) {
       const auto [value, i] = queue_.top();
       queue_.pop();
-      if (-value != lowered_[i]) continue;  // it was lowered again
-      const std::uint32_t s = source_[i];
-      for_each_neighbour(i, [&](std::size_t n) {
-        const double offer = given_[s] + slope_ * 2 * std::asin(std::min(1.0, chord(s, n) / 2));
-        if (!(offer < lowered_[n]) || (inside != nullptr && (*inside)[n] == sources)) return;
-        lowered_[n] = offer;
+      if (-value != static_cast<float>(width[i])) continue;  // it was lowered again
+      const Place s = source_[i];
+      for_each_neighbour(i, [&](Place n) {
+        const double offer = width[s] + slope_ * arc(s, n);
+        if (!(offer < width[n]) || (inside != nullptr && is_source(n))) return;
+        width[n] = offer;
         source_[n] = s;
-        queue_.emplace(-offer, n);
+        queue_.emplace(-static_cast<float>(offer), n);
       });
     }
     return finish();
@@ -114,63 +85,71 @@ class GradientLimit {
   /// After run(&inside): the cones begin `flat` times their own value and `more` km from their source, and
   /// end at `most`.
   void flatten(const std::vector<bool>& inside, double flat, double more, double most) {
-    for (std::size_t i = 0; i < given_.size(); ++i) {
-      if (inside[i]) continue;
-      const double value = given_[source_[i]], gradient = slope_ / radius_;
-      const double distance = radius_ * 2 * std::asin(std::min(1.0, chord(source_[i], i) / 2));
-      lowered_[i] = source_[i] == i
-                        ? most
-                        : std::min(most, value + gradient * std::max(0.0, distance - flat * value - more));
-    }
+    std::vector<double>& width = table_.values;
+    for_each_place([&](Place i) {
+      if (inside[i - i / row_]) return;
+      const double value = width[source_[i]], from = radius_ * arc(source_[i], i) - flat * value - more;
+      width[i] = source_[i] == i ? most : std::min(most, value + slope_ / radius_ * std::max(0.0, from));
+    });
     finish();
   }
 
  private:
-  Point place(std::size_t i) const {
-    const Point &e = east_[i % columns_], &u = up_[i / columns_];
+  /// The index of a place in the table. The last column, which repeats the first one, has none.
+  using Place = std::uint32_t;
+
+  Point place(Place i) const {
+    const Point &e = east_[i % row_], &u = up_[i / row_];
     return {u.x * e.x, u.x * e.y, u.z};
   }
-  double chord(std::size_t i, std::size_t j) const {
+  double chord(Place i, Place j) const {
     const Point d = minus(place(i), place(j));
     return std::sqrt(dot(d, d));
   }
+  double arc(Place i, Place j) const { return 2 * std::asin(std::min(1.0, chord(i, j) / 2)); }
   template <class Visit>
-  void for_each_neighbour(std::size_t i, const Visit& visit) const {
-    const std::size_t row = i / columns_, column = i % columns_;
-    for (std::size_t r = row == 0 ? 0 : row - 1; r < std::min(row + 2, rows_); ++r)
-      for (std::size_t k = columns_ - 1; k < columns_ + 2; ++k)
-        if (r != row || k != columns_) visit(r * columns_ + (column + k) % columns_);
+  void for_each_place(const Visit& visit) const {
+    for (std::size_t i = 0; i < given_.size(); ++i)
+      if (i % row_ != row_ - 1) visit(static_cast<Place>(i));
+  }
+  template <class Visit>
+  void for_each_neighbour(Place i, const Visit& visit) const {
+    const std::size_t columns = row_ - 1, row = i / row_, column = i % row_;
+    for (std::size_t r = row == 0 ? 0 : row - 1; r < std::min(row + 2, up_.size()); ++r)
+      for (std::size_t k = columns - 1; k < columns + 2; ++k)
+        if (r != row || k != columns) visit(static_cast<Place>(r * row_ + (column + k) % columns));
   }
 
+  /// Repeats the first column.
   Lowered finish() {
     Lowered lowered;
-    for (std::size_t r = 0; r < rows_; ++r) {
-      const bool is_pole = r == 0 || r + 1 == rows_;
-      bool is_lowered = false;
-      for (std::size_t c = 0; c < columns_; ++c) {
-        const std::size_t i = r * columns_ + c;
-        const double change = given_[i] - lowered_[i];
-        if (change > lowered.most)
-          lowered.most = change, lowered.lon = table_.lon[c], lowered.lat = table_.lat[r];
-        if (!is_pole) lowered.places += change > 0;
-        is_lowered = is_lowered || change > 0;
-        table_.values[r * (columns_ + 1) + c] = lowered_[i];
-      }
-      table_.values[r * (columns_ + 1) + columns_] = lowered_[r * columns_];
-      lowered.places += is_pole && is_lowered;
-    }
-    lowered.of = (rows_ - 2) * columns_ + 2;
+    bool poles[2] = {};
+    for_each_place([&](Place i) {
+      const std::size_t r = i / row_, c = i % row_;
+      if (c == 0) table_.values[i + row_ - 1] = table_.values[i];
+      const double change = given_[i] - table_.values[i];
+      if (source_[i] == i || change <= 1e-6 * given_[i]) return;  // rounding of single precision
+      if (change > lowered.most)
+        lowered.most = change, lowered.lon = table_.lon[c], lowered.lat = table_.lat[r];
+      if (r == 0 || r + 1 == up_.size())
+        poles[r > 0] = true;
+      else
+        ++lowered.places;
+    });
+    lowered.places += poles[0] + poles[1];
+    lowered.of = (up_.size() - 2) * (row_ - 1) + 2;
     return lowered;
   }
 
-  std::size_t columns_, rows_;
-  double slope_;   ///< km per radian
-  double radius_;  ///< km
-  Table& table_;
+  std::size_t row_;               ///< places in a row of the table, one of them twice
+  double slope_;                  ///< km per radian
+  double radius_;                 ///< km
+  Table& table_;                  ///< lowered in place
   std::vector<Point> east_, up_;  ///< of columns and rows: the factors of a place
-  std::vector<double> given_, lowered_;
-  std::vector<std::uint32_t> source_;
-  std::priority_queue<std::pair<double, std::size_t>> queue_;  ///< minus the value, place
+  std::vector<float> given_;
+  std::vector<Place> source_;
+  using Entry = std::pair<float, Place>;                 ///< minus the value
+  std::priority_queue<Entry, std::deque<Entry>> queue_;  ///< a deque never needs room for a copy
 };
 
 /// The columns of an equidistant table without its last one that lie inside the region at this latitude.
@@ -330,6 +309,32 @@ Table widths_of_regions(const std::vector<files::WidthRegion>& regions, const Wi
       GradientLimit(t, change / region->transition, radius).run(&inside, !is_wide);
   }
   return t;
+}
+
+/// The integral of 1/(sqrt(3)/2 w^2): Gauss' rule with three points along each side of a cell of the grid.
+double cells_of(const Table& t, double radius) {
+  constexpr double kPlaces[] = {-0.7745966692414834, 0, 0.7745966692414834}, kWeights[] = {5, 8, 5};  // / 18
+  double cells = 0;
+  for (std::size_t row = 0; row + 1 < t.lat.size(); ++row) {
+    const double south = std::sin(t.lat[row] * kDegree), north = std::sin(t.lat[row + 1] * kDegree);
+    const double height = t.lat[row + 1] - t.lat[row];
+    for (int j = 0; j < 3; ++j) {
+      const double z = (south + north + kPlaces[j] * (north - south)) / 2;
+      const double up = (std::asin(z) / kDegree - t.lat[row]) / height;
+      double sum = 0;
+      for (std::size_t column = 0; column + 1 < t.lon.size(); ++column) {
+        const double* const low = &t.values[row * t.lon.size() + column];
+        const double* const high = low + t.lon.size();
+        const double west = low[0] + up * (high[0] - low[0]), east = low[1] + up * (high[1] - low[1]);
+        for (int i = 0; i < 3; ++i) {
+          const double ratio = radius / (west + (1 + kPlaces[i]) / 2 * (east - west));
+          sum += kWeights[i] / 18 * ratio * ratio * (t.lon[column + 1] - t.lon[column]) * kDegree;
+        }
+      }
+      cells += kWeights[j] / 18 * (north - south) * sum / (std::sqrt(3) / 2);
+    }
+  }
+  return cells;
 }
 
 Widths widths_of(Table km, double radius) {

@@ -81,6 +81,8 @@ Table widths_of_regions(const std::vector<files::WidthRegion>& regions, const Wi
 void set_outside(Table& table, const std::vector<bool>& inside, double gradient, double radius, double flat,
                  double more, double most);
 
+/// How many cells have these widths. `radius` in km.
+double cells_of(const Table& widths, double radius);
 /// `radius` in km. Widths are bilinear in longitude and latitude.
 Widths widths_of(Table km, double radius);
 

@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 #include <sys/time.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <filesystem>
@@ -17,10 +15,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/system.h"
 #include "methods/densities.h"
 #include "methods/quality.h"
 #include "methods/regional_widths.h"
-#include "methods/time_left.h"
 #include "methods/widths.h"
 #include "numbers.h"
 #include "pstripack/options.h"
@@ -62,7 +60,10 @@ struct Options {
   double nominal = 0;  ///< width of cells of density 1 times the root of their number, radians; 0: unknown
   double grade = 0;    ///< most that widths may change, km per km; 0: not given
   Method method = Method::newton;
-  double tolerance = -1;      ///< below 0: not given
+  double tolerance = -1;  ///< below 0: not given
+  double settled = 0;     ///< the run ends when ten evaluations lower the energy by less than this part of it
+  std::int64_t mark = 0;  ///< evaluations when the energy was looked at for this, ten or more ago
+  double energy = INFINITY;   ///< then
   bool well_centred = false;  ///< move generators until all triangles hold their circumcentre
   bool strict = false;
   std::int64_t evaluations = 10000, every = 100;
@@ -76,7 +77,8 @@ constexpr auto kEvaluations = "scvt_iterations", kDensity = "scvt_density",
                kDensityFile = "scvt_density_file", kWidthFile = "scvt_width_file", kWidth = "scvt_width",
                kWidthRegion = "scvt_width_region", kVariable = "scvt_density_variable",
                kRegion = "scvt_region", kRadius = "scvt_radius", kGrade = "scvt_grade", kSteps = "scvt_steps",
-               kPairs = "scvt_pairs", kExponent = "scvt_exponent";
+               kPairs = "scvt_pairs", kExponent = "scvt_exponent", kMark = "scvt_mark",
+               kEnergy = "scvt_energy_at_mark";
 
 // The options that are stored in them as they are.
 constexpr std::pair<const char*, std::string Options::*> kStored[] = {
@@ -153,9 +155,8 @@ void choose_n(Options& options, double cells) {
 void check_memory(double generators) {
   constexpr double kBytes = 750;  // of a generator; 600 with levels
   const double bytes = kBytes * generators;
-  const double most =
-      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  if (most > 0 && bytes > most)
+  const double most = static_cast<double>(pstripack::memory_limit());
+  if (bytes > most)
     throw std::runtime_error(
         fmt::format("{:.0f} generators need about {:.3g} GB, this machine has {:.3g} GB: take fewer, with "
                     "widths {:.2g} times as wide, or pstripack-mpi on several machines",
@@ -164,13 +165,24 @@ void check_memory(double generators) {
 
 /// The widths, limited in their gradient.
 methods::Widths widths_of(methods::Table table, const Options& options) {
-  const methods::Lowered lowered = methods::limit_gradient(table, options.grade, options.radius / 1000);
+  const double radius = options.radius / 1000, before = methods::cells_of(table, radius);
+  const methods::Lowered lowered = methods::limit_gradient(table, options.grade, radius);
+  methods::Widths widths = methods::widths_of(std::move(table), radius);
   if (lowered.places > 0)
     say(fmt::format(
         "widths limited to a change of {:g} km per km: {} of {} values lowered, by up to {:.4g} km "
-        "(lon {:g} lat {:g})",
-        options.grade, lowered.places, lowered.of, lowered.most, lowered.lon, lowered.lat));
-  return methods::widths_of(std::move(table), options.radius / 1000);
+        "(lon {:g} lat {:g}): {:.2g} % more cells{}",
+        options.grade, lowered.places, lowered.of, lowered.most, lowered.lon, lowered.lat,
+        100 * (widths.cells / before - 1),
+        widths.cells > 1.1 * before ? "; if the map is noisy, smooth it first, say by cdo smooth,radius=1deg"
+                                    : ""));
+  return widths;
+}
+
+double median_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 methods::Widths widths_in_file(const Options& options) {
@@ -178,10 +190,11 @@ methods::Widths widths_in_file(const Options& options) {
   read.with_values = true;
   read.variable = options.variable;
   read.usual_variables.assign(std::begin(kNamesOfWidths), std::end(kNamesOfWidths));
-  const files::Nodes nodes = read_places(options.width_file, read);
+  read.only_axes = true;
+  files::Nodes nodes = files::read(options.width_file, read);
   const auto fail = [&](const std::string& what) { throw std::runtime_error(nodes.file + ": " + what); };
   if (nodes.grid.lon.empty()) fail("expected widths on a grid, say cellWidth(lat, lon) in NetCDF");
-  std::vector<double> km = nodes.value.numbers;
+  std::vector<double> km = std::move(nodes.value.numbers);
   const std::string& units = nodes.value.units;
   const bool are_metres = units == "m" || units == "meters" || units == "metres";
   if (!are_metres && !units.empty() && units != "km" && units != "kilometers" && units != "kilometres")
@@ -204,18 +217,17 @@ methods::Widths widths_in_file(const Options& options) {
   }
   if (are_metres)
     for (double& width : km) width /= 1000;
-  std::vector<double> sorted = km;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  if (*middle > 20000 || *middle < 0.01)
+  const double middle = median_of(km);
+  if (middle > 20000 || middle < 0.01)
     fail(fmt::format("the median width is {:g} km: if these are not km, say so: ncatted -a units,{},c,c,m {}",
-                     *middle, nodes.value.name, nodes.file));
+                     middle, nodes.value.name, nodes.file));
   methods::Table table;
   try {
     table = methods::table_of(nodes.grid, km);
   } catch (const std::runtime_error& e) {
     fail(e.what());
   }
+  km = {};
   return widths_of(std::move(table), options);
 }
 
@@ -303,6 +315,7 @@ void choose_density(Options& options, const files::Notes& notes) {
     options.area = limited_area_of(options.region, options.start.read, options.radius / 1000);
   const bool widths_differ = !options.width_file.empty() || !options.width_text.empty();
   // With a region most of the gradient is that of the coarse cells outside.
+  if (options.tolerance < 0 && widths_differ) options.settled = 3e-5;
   if (options.tolerance < 0) options.tolerance = !options.region.empty() ? 1e-3 : widths_differ ? 3e-4 : 1e-4;
 }
 
@@ -323,6 +336,8 @@ files::Notes notes_of(const Options& options, const State& state, const engine::
   notes[kEvaluations] = std::to_string(state.evaluations);
   notes[kSteps] = std::to_string(state.steps);
   notes[kExponent] = std::to_string(state.exponent);
+  notes[kMark] = std::to_string(options.mark);
+  notes[kEnergy] = fmt::format("{}", options.energy);
   notes["scvt_gradient"] = fmt::format("{}", reached.gradient);
   notes["scvt_energy"] = fmt::format("{}", reached.energy);
   notes["history"] = options.history;
@@ -374,7 +389,7 @@ std::vector<State::Pair> pairs_in(const files::Nodes& start) {
 
 /// The state of a run from its file, or from this rank's part of it. Pairs are used only if the density is
 /// the same and the method is not Lloyd's, which needs none. Collective.
-Tessellation tessellation_of(Communicator& ranks, files::Nodes& start, const Options& options) {
+Tessellation tessellation_of(Communicator& ranks, files::Nodes& start, Options& options) {
   Tessellation t;
   pstripack::OnAll have_pairs;
   in_agreement_with_caller(
@@ -382,6 +397,8 @@ Tessellation tessellation_of(Communicator& ranks, files::Nodes& start, const Opt
       [&] {
         t.state.evaluations = count_in(start, kEvaluations, 0);
         t.state.steps = count_in(start, kSteps, t.state.evaluations);
+        options.mark = count_in(start, kMark, 0);
+        point_sets::parse(note(start.notes, kEnergy), options.energy);
         t.state.exponent = static_cast<int>(count_in(start, kExponent, 0, -5000));
         const files::Notes chosen = notes_of_density(options);
         bool has_same_density = true;
@@ -468,12 +485,6 @@ methods::Quality write(Ranks& ranks, const Options& options, bool is_checkpoint,
   return quality;
 }
 
-std::string duration(double seconds) {
-  if (seconds < 100) return fmt::format("{:.0f} s", seconds);
-  if (seconds < 6000) return fmt::format("{:.0f} min", seconds / 60);
-  return fmt::format("{:.1f} h", seconds / 3600);
-}
-
 /// Says that levels give the refined icosahedron, if N and the density allow it. A front never does.
 void suggest_levels(const Options& options) {
   if (options.density != "constant") return;
@@ -551,32 +562,38 @@ void end_iterations_after(double seconds) {
   setitimer(ITIMER_REAL, &timer, nullptr);
 }
 
-/// Returns the signal that ended the iterations, on any rank; 0: none did. Collective.
-int iterate(const Options& options, Ranks& ranks, engine::Evaluator& evaluator, Tessellation& t,
+constexpr int kSettled = -1;
+
+/// Returns the signal that ended the iterations, on any rank, or kSettled; 0: nothing did. Collective.
+int iterate(Options& options, Ranks& ranks, engine::Evaluator& evaluator, Tessellation& t,
             Progress& progress) {
   engine::Options of_run;
   of_run.method = options.method;
   of_run.tolerance = options.tolerance;
   of_run.most_evaluations = options.evaluations;
   of_run.well_centred = options.well_centred;
-  methods::TimeLeft time_left(options.tolerance);
   pstripack::Largest signal;
-  const auto start = std::chrono::steady_clock::now();
+  bool has_settled = false;
   of_run.progress = [&](const engine::Progress& p) {
-    time_left.add(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
-                  p.gradient);
-    const std::optional<double> left = time_left.seconds();
-    progress.now(fmt::format("{} evaluations, gradient {:.3g}, energy {:.9g}{}", p.evaluations, p.gradient,
-                             p.energy, left ? ", perhaps " + duration(*left) + " left" : ""));
+    progress.now(fmt::format("{} evaluations, gradient {:.3g}, to fall to {:g}, energy {:.9g}", p.evaluations,
+                             p.gradient, options.tolerance, p.energy));
+    constexpr double kTogether = 10;
+    if (const auto evaluations = static_cast<double>(p.evaluations - options.mark);
+        evaluations >= kTogether) {
+      const double fall = options.energy - p.energy;
+      has_settled = fall >= 0 && fall < options.settled * p.energy * evaluations / kTogether;
+      options.mark = p.evaluations;
+      options.energy = p.energy;
+    }
     signal.value = signal_received;
     agree(ranks.communicator(), signal);
     if (!options.checkpoint.file.empty() && (signal.value != 0 || t.state.steps % options.every == 0))
       write(ranks, options, true, t, evaluator.density(), notes_of(options, t.state, p));
-    return signal.value == 0;
+    return signal.value == 0 && !has_settled;
   };
   end_iterations_at({SIGTERM, SIGINT});
   engine::iterate(evaluator, t, of_run);
-  return static_cast<int>(signal.value);
+  return has_settled ? kSettled : static_cast<int>(signal.value);
 }
 
 std::string end_of(const Options& options, const Tessellation& t, bool has_moved, int signal) {
@@ -589,6 +606,9 @@ std::string end_of(const Options& options, const Tessellation& t, bool has_moved
             "stalled, NOT converged to {:g}: the energy falls no more (rounding, or a rough density)",
             options.tolerance);
       case engine::End::stopped:
+        if (signal == kSettled)
+          return fmt::format("settled: ten evaluations lower the energy by less than {:g} of it",
+                             options.settled);
         return fmt::format("ended by {}, NOT converged to {:g}",
                            signal == SIGTERM  ? "TERM"
                            : signal == SIGINT ? "INT"
@@ -604,7 +624,8 @@ std::string end_of(const Options& options, const Tessellation& t, bool has_moved
 }
 
 /// One line if triangles are left that were to be repaired, or, with --strict, if the run has not converged.
-std::string what_is_missing(const Options& options, const Tessellation& t, const methods::Quality& quality) {
+std::string what_is_missing(const Options& options, const Tessellation& t, const methods::Quality& quality,
+                            int signal) {
   const std::int64_t obtuse = options.region.empty() ? t.repair.obtuse
                               : options.well_centred ? quality.obtuse
                                                      : 0;
@@ -617,10 +638,11 @@ std::string what_is_missing(const Options& options, const Tessellation& t, const
   }
   if (t.repair.bad > 0 && options.region.empty()) {
     const files::LonLat where({t.repair.place}, true);
-    say(fmt::format("{} triangles have an angle beyond {:g} to {:g} degrees, the first at lon {:.6g} lat {:.6g}",
-                    t.repair.bad, engine::kLeastAngle, engine::kMostAngle, where.lon[0], where.lat[0]));
+    say(fmt::format("{} with an angle beyond {:g} to {:g} degrees, the first at lon {:.6g} lat {:.6g}",
+                    counted(static_cast<std::size_t>(t.repair.bad), "triangle"), engine::kLeastAngle,
+                    engine::kMostAngle, where.lon[0], where.lat[0]));
   }
-  if (options.strict && t.result.end != engine::End::converged)
+  if (options.strict && t.result.end != engine::End::converged && signal != kSettled)
     return fmt::format("not converged to {:g}", options.tolerance);
   return "";
 }
@@ -710,7 +732,7 @@ void scvt(Options& options, Ranks& ranks) {
                                 end_of(options, t, t.state.steps > steps_before, signal), reached.gradient,
                                 reached.energy));
     say(quality.text());
-    const std::string missed = what_is_missing(options, t, quality);
+    const std::string missed = what_is_missing(options, t, quality, signal);
     if (!missed.empty() && options.strict) throw engine::NoTessellation(missed);
     if (!missed.empty()) say(missed);
     constexpr int kBySignal = 128;  // as a shell has it
@@ -815,7 +837,7 @@ void add_scvt(CLI::App& app, Command& chosen) {
              "newton (L-BFGS) or lloyd [newton]");
   sub->add_option("--tolerance", options->tolerance,
                   "stop at this gradient: root mean square distance to the centroid over sqrt(4 pi/N) [1e-4; "
-                  "where widths differ 3e-4; with --region 1e-3]")
+                  "where widths differ 3e-4, with --region 1e-3, or when the energy has settled]")
       ->type_name("NUMBER")
       ->check(number_from(0, kLargest, "a number of at least 0"));
   sub->add_flag(

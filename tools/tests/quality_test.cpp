@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "files/measures.h"
-#include "methods/time_left.h"
 #include "point_sets.h"
 
 namespace methods {
@@ -48,18 +47,6 @@ TEST(quality, of_an_icosahedron_and_of_a_prolate_octahedron) {
   EXPECT_NE(cube.text().find("; 12 triangles do not hold their circumcentre"), std::string::npos)
       << cube.text();
   EXPECT_THROW(quality_of(files::triangulate({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}})), files::NoMesh);
-}
-
-TEST(time_left, is_said_only_where_the_gradient_falls_evenly) {
-  TimeLeft even(1e-6), slowing(1e-6), rising(1e-6);
-  for (int i = 0; i < 40; ++i) even.add(2 * i, std::pow(10, -i / 20.0));
-  EXPECT_FALSE(even.seconds());  // too few steps
-  even.add(80, 1e-2);
-  ASSERT_TRUE(even.seconds());
-  EXPECT_NEAR(*even.seconds(), 160, 1e-6);  // a digit in 40 s, four to go
-  for (int i = 0; i < 60; ++i) slowing.add(i, 1e-3 + std::exp(-i)), rising.add(i, 1 + i);
-  EXPECT_FALSE(slowing.seconds());
-  EXPECT_FALSE(rising.seconds());
 }
 
 }  // namespace

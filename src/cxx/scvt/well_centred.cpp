@@ -14,10 +14,17 @@
 namespace pstripack::scvt {
 namespace {
 
-// Cosines. Angles are wanted within 44.5 to 77.5 degrees, so that few passes bring all within 43.5 to 78.5.
-constexpr double kMostWanted = 0.7132504491541816, kLeastWanted = 0.21643961393810288;
-constexpr double kCosineOfLeast = 0.7253743710122876, kCosineOfMost = 0.19936793441719716;
-constexpr int kPatience = 8;  ///< passes without fewer bad triangles; 3 to 20 passes in all are usual
+/// Cosines of angles: triangles are bad if one is out of `least` to `most`; the others are what is aimed at,
+/// so that few passes do.
+struct Bounds {
+  double least_wanted, most_wanted, least, most;
+};
+/// First no angle above 84 degrees, for which fewer generators move: where cells are rough, more would make
+/// other triangles obtuse. Then 43.5 to 78.5 degrees.
+constexpr Bounds kStages[] = {
+    {0.12186934340514748, 1, 0.10452846326765346, 1},
+    {0.21643961393810288, 0.7132504491541816, 0.19936793441719716, 0.7253743710122876}};
+constexpr int kPatience = 15;  ///< passes without fewer bad triangles; 6 to 30 passes in all are usual
 
 using Triangle = std::array<Point, 3>;
 
@@ -69,7 +76,22 @@ class Repairer {
   }
 
   Repair run() {
-    Found best = look();
+    Found best;
+    for (const Bounds& bounds : kStages) {
+      bounds_ = bounds;
+      generators_ = best_;
+      best = look();
+      improve(best);
+    }
+    generators_ = best_;
+    std::size_t moved = 0;
+    for (std::size_t i = 0; i < best_.size(); ++i) moved += best_[i] != given_[i];
+    return {sum_of_all(evaluator_.ranks(), moved), best.obtuse, best.bad, best.place};
+  }
+
+ private:
+  /// Moves from best_, at which look() was called last, to better ones.
+  void improve(Found& best) {
     for (int passes = 1; best.bad > 0 && passes <= kPatience; ++passes) {
       std::swap(generators_, next_);
       Found found;
@@ -84,13 +106,8 @@ class Repairer {
       best = found;
       best_ = generators_;
     }
-    generators_ = best_;
-    std::size_t moved = 0;
-    for (std::size_t i = 0; i < best_.size(); ++i) moved += best_[i] != given_[i];
-    return {sum_of_all(evaluator_.ranks(), moved), best.obtuse, best.bad, best.place};
   }
 
- private:
   /// Triangulates the generators, and sets next_.
   Found look() {
     const Neighbourhood here = evaluator_.triangulate(generators_);
@@ -108,7 +125,7 @@ class Repairer {
     return of_all_ranks;
   }
 
-  static Point moved(const Neighbourhood& here, std::size_t i, Found& found) {
+  Point moved(const Neighbourhood& here, std::size_t i, Found& found) const {
     const std::size_t begin = here.stars.begin_of(i), end = here.stars.end_of(i);
     const auto neighbour = [&](std::size_t s) {
       return static_cast<std::size_t>(here.stars.neighbour[s]) - 1;
@@ -120,8 +137,9 @@ class Repairer {
       const Triangle triangle{here.points[i], here.points[j], here.points[k]};
       double excess = 0;
       for (std::size_t at = 0; at < 3; ++at) {
-        const double cosine = cosine_at(triangle, at), wanted = std::clamp(cosine, kLeastWanted, kMostWanted);
-        excess = std::max({excess, kCosineOfMost - cosine, cosine - kCosineOfLeast});
+        const double cosine = cosine_at(triangle, at),
+                     wanted = std::clamp(cosine, bounds_.least_wanted, bounds_.most_wanted);
+        excess = std::max({excess, bounds_.least - cosine, cosine - bounds_.most});
         if (cosine == wanted) continue;
         sum = plus(sum, step_of(triangle, at, wanted));
         moves = true;
@@ -138,6 +156,7 @@ class Repairer {
   std::vector<Point>& generators_;
   std::vector<Point> next_, best_, given_;
   std::vector<Found> found_;  ///< by thread
+  Bounds bounds_{};
 };
 
 }  // namespace
