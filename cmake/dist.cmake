@@ -1,5 +1,10 @@
 # The release: `cmake --build build --target dist` writes pstripack-VERSION.tar.gz, of the last commit, and its checksum.
-# Usage: cmake -DSOURCE_DIR=... -DOUTPUT_DIR=... -DVERSION=... -P dist.cmake
+# `dist-trial` does so while no publisher stands in project-address.cmake.
+# Usage: cmake -DSOURCE_DIR=... -DOUTPUT_DIR=... -DVERSION=... [-DTRIAL=ON] -P dist.cmake
+include(${CMAKE_CURRENT_LIST_DIR}/project-address.cmake)
+if(NOT TRIAL AND "${PSTRIPACK_PUBLISHER} ${PSTRIPACK_SECURITY_ADDRESS} ${PSTRIPACK_HOMEPAGE}" MATCHES "no-address[.]invalid")
+  message(FATAL_ERROR "who publishes this? Write it into cmake/project-address.cmake, or make the target dist-trial")
+endif()
 find_program(GIT git REQUIRED)
 set(name pstripack-${VERSION})
 execute_process(COMMAND ${GIT} -C ${SOURCE_DIR} status --porcelain OUTPUT_VARIABLE changes COMMAND_ERROR_IS_FATAL ANY)

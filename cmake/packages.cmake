@@ -1,11 +1,11 @@
 # Debian packages: `cmake --workflow --preset packages` configures for /usr, builds and packs; `cpack -G DEB` packs any
 # other build. One package per component of the install rules; finish-packages.cmake adds what Debian requires.
-set(PSTRIPACK_PACKAGE_CONTACT "The PSTRIPACK developers <pstripack@no-address.invalid>" CACHE STRING
-    "Maintainer of the packages that cpack makes: Name <address>")
+include(${CMAKE_CURRENT_LIST_DIR}/project-address.cmake)
 
 set(CPACK_PACKAGE_NAME pstripack)
 set(CPACK_PACKAGE_VERSION ${PSTRIPACK_DEBIAN_VERSION})
-set(CPACK_PACKAGE_CONTACT ${PSTRIPACK_PACKAGE_CONTACT})
+set(CPACK_PACKAGE_CONTACT ${PSTRIPACK_PUBLISHER})
+set(CPACK_DEBIAN_PACKAGE_HOMEPAGE ${PSTRIPACK_HOMEPAGE})
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own summary
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
 set(CPACK_GENERATOR DEB)
