@@ -16,10 +16,10 @@
 
 #include "base/environment.h"
 #include "base/parallel_for.h"
+#include "base/shared_area.h"
 #include "lists/limits.h"
 #include "pool/channel.h"
 #include "pool/messages.h"
-#include "pool/shared_area.h"
 
 namespace pstripack {
 namespace {

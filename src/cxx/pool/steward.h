@@ -16,10 +16,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/shared_area.h"
 #include "mpi/collective_trmesh.h"
 #include "mpi/world.h"
 #include "pool/channel.h"
-#include "pool/shared_area.h"
 #include "pool/watchdog.h"
 
 namespace pstripack {

@@ -12,9 +12,9 @@ class SharedArea {
   SharedArea() = default;
   SharedArea(SharedArea&& other) noexcept { *this = static_cast<SharedArea&&>(other); }
   SharedArea& operator=(SharedArea&& other) noexcept;
-  ~SharedArea();
+  ~SharedArea() { clear(); }
 
-  /// A new area of `size` bytes. All pages are allocated now, so that using them cannot fail. Empty
+  /// A new area of `size` bytes. On Linux all pages are allocated now, so that using them cannot fail. Empty
   /// if there is not enough memory.
   static SharedArea create(std::size_t size);
   /// Maps an area that another process created and whose descriptor was passed on. Empty on failure.
@@ -27,6 +27,7 @@ class SharedArea {
   void close_file() { file_.reset(); }
 
  private:
+  void clear();
   Descriptor file_;
   void* data_ = nullptr;
   std::size_t size_ = 0;
