@@ -267,7 +267,7 @@ which() {
  10   CONTINUE
       END
 TEXT
-  for flags in "-O0 -g" "-O2 -g" -O0 -O2; do
+  for flags in "-O2 -g" -O2; do
     gfortran $flags "$@" -c which.f
     status=0
     "$config" --which which.o > "$work/answer" || status=$?
