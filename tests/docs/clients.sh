@@ -26,8 +26,11 @@ done
 EOF
 cat > bin/pstripack-config << EOF
 #!/bin/sh
-[ "\$*" = "--abi 8arg --switch-dir" ] || exit 1
-echo "$work/switch/8arg"
+case \$* in
+  --switch-dir) echo "$libraries" ;;
+  "--abi 8arg --switch-dir") echo "$work/switch/8arg" ;;
+  *) exit 1 ;;
+esac
 EOF
 chmod +x bin/*
 ln -s "$libraries/libstripack_8arg.so" switch/8arg/libstripack.so
@@ -75,7 +78,10 @@ has out 'U trmesh_'
 has out 'T trmesh_'
 gfortran main.o both.o -o model && ./model > out
 has out 'IER 99'
-run README.md 'objcopy --redefine-sym'
+ar rc libgeo_rest.a both.o
+run ../relink.md 'objcopy --localize-symbols'
+# shellcheck disable=SC2046  # several words
+gfortran main.o libgeo_rest.a -o model $(pkg-config --libs stripack)
 PSTRIPACK_REPORT=1 ./model > out 2> err
 has out 'IER 0'
 has out 'another routine'

@@ -241,6 +241,31 @@ Widths WidthFormula::widths(double radius) const {
           least(), cells};
 }
 
+Table widths_of_name(const std::string& name) {
+  // A density between two values, `from` towards the pole and `to` towards the equator of the latitude `at`.
+  const auto step = [](double lat, double at, double length, double to, double from) {
+    return from + (to - from) * (1 + std::tanh((at - lat) / length)) / 2;
+  };
+  const auto density = [](double width, double least) { return std::pow(least / width, 4); };
+  const auto ec = [&](double lat) {
+    const double equator = density(30, 30), middle = density(60, 30), pole = density(35, 30);
+    return 30 / std::pow(lat < 40 ? step(lat, 15, 6, equator, middle) : step(lat, 73, 9, middle, pole), 0.25);
+  };
+  const auto rrs = [&](double lat) {
+    const double equator = density(18, 6);
+    return 6 / std::pow(equator + (1 - equator) * std::pow(std::sin(lat * kDegree), 4), 0.25);
+  };
+  Table table{{0, 120, 240, 360}, {}, {}};
+  if (name != "ec60to30" && name != "rrs18to6") return table;
+  constexpr int kRowsPerDegree = 10;
+  for (int row = -90 * kRowsPerDegree; row <= 90 * kRowsPerDegree; ++row) {
+    table.lat.push_back(row / static_cast<double>(kRowsPerDegree));
+    const double lat = std::fabs(table.lat.back());
+    table.values.insert(table.values.end(), table.lon.size(), name == "ec60to30" ? ec(lat) : rrs(lat));
+  }
+  return table;
+}
+
 Lowered limit_gradient(Table& table, double gradient, double radius) {
   return GradientLimit(table, gradient, radius).run();
 }

@@ -54,6 +54,11 @@ class WidthFormula {
   double inner_ = 0, outer_ = 0, radius_ = 0, transition_ = 0, lon_ = 0, lat_ = 0;
 };
 
+/// Widths by latitude that have a name: those of E3SM's ocean meshes ec60to30 and rrs18to6, by the formulas
+/// EC_CellWidthVsLat and RRS_CellWidthVsLat of mpas_tools.mesh.creation.mesh_definition_tools. No values:
+/// another name.
+Table widths_of_name(const std::string& name);
+
 /// What limit_gradient() changed.
 struct Lowered {
   std::size_t places = 0, of = 0;  ///< a pole is one place

@@ -238,11 +238,22 @@ methods::WidthFormula formula_of(const std::string& text) {
 }
 
 methods::Widths widths_of_formula(const Options& options) {
+  if (methods::Table table = methods::widths_of_name(options.width_text); !table.values.empty())
+    return widths_of(std::move(table), options);
   methods::WidthFormula formula = formula_of(options.width_text);
   if (formula.limit(options.grade))
     say(fmt::format("transition made {:.0f} km long, so that widths change by at most {:g} km per km",
                     formula.transition(), options.grade));
   return formula.widths(options.radius / 1000);
+}
+
+/// Quasi-uniform meshes of MPAS: refined icosahedra.
+constexpr std::pair<const char*, double> kQuasiUniform[] = {
+    {"qu240", 10242}, {"qu120", 40962}, {"qu60", 163842}, {"qu30", 655362}, {"qu15", 2621442}};
+double cells_of_quasi_uniform(const std::string& name) {
+  for (const auto& [known, cells] : kQuasiUniform)
+    if (name == known) return cells;
+  return 0;
 }
 
 /// Those of the regions, and of the formula elsewhere.
@@ -300,6 +311,15 @@ void choose_density(Options& options, const files::Notes& notes) {
     options.density = "constant";
     options.width_text.clear();
     choose_n(options, methods::cells_of_width(options.width, options.radius / 1000));
+  }
+  if (const double cells = cells_of_quasi_uniform(options.width_text); cells > 0) {
+    if (!options.region.empty() || !options.width_region.empty())
+      throw CLI::ValidationError(
+          "--width", options.width_text + " covers the sphere with one width: say 60km or the like");
+    options.density = "constant";
+    options.width_text.clear();
+    if (options.first == First::by_number && options.start.file.empty()) options.first = First::levels;
+    choose_n(options, cells);
   }
   const auto is_chosen = [&] {
     return !(options.density.empty() && options.density_file.empty() && options.width_file.empty() &&
@@ -804,7 +824,7 @@ void add_scvt(CLI::App& app, Command& chosen) {
              options->width_text = text;
              if (methods::WidthFormula::is_one(text))
                methods::WidthFormula{text};
-             else
+             else if (methods::widths_of_name(text).values.empty() && cells_of_quasi_uniform(text) == 0)
                options->width = methods::width_of(text);
            } catch (const std::invalid_argument& e) {
              throw CLI::ValidationError("--width", e.what());
@@ -884,6 +904,8 @@ Widths, in km, angles in degrees:
   band:INNER,OUTER,RADIUS,TRANSITION,LAT
                                       INNER up to RADIUS km from LON,LAT, or from the parallel LAT; then over TRANSITION
                                       km, which --grade may lengthen, smoothly to OUTER
+  ec60to30, rrs18to6                  E3SM's ocean meshes, by latitude
+  qu240, qu120, qu60, qu30, qu15      10,242 to 2,621,442 cells of one width, with 12 pentagons
 
 To continue a run, repeat its command with --start CHECKPOINT instead of N: the result has the same bits as without
 interruption, except the history of the file. NetCDF files hold evaluations and density. NetCDF checkpoints also hold the

@@ -128,6 +128,22 @@ TEST(limit_gradient, changes_nothing_that_is_flat_enough_and_says_what_it_change
   EXPECT_EQ(lowered.lat, 0);
 }
 
+TEST(widths_of_name, are_those_of_mpas_tools) {
+  const auto width = [](const Widths& widths, double lat) {
+    return widths.least / std::sqrt(std::sqrt(widths.density->at(point_sets::from_degrees(77, lat))));
+  };
+  const Widths ec = widths_of(methods::widths_of_name("ec60to30"), 6371.22);
+  EXPECT_NEAR(width(ec, 0), 30.047244527610236, 1e-5);
+  EXPECT_NEAR(width(ec, -15), 35.13957616457637, 1e-5);
+  EXPECT_NEAR(width(ec, 73), 40.4976691150104, 1e-5);
+  EXPECT_NEAR(ec.cells, 326958, 3);
+  const Widths rrs = widths_of(methods::widths_of_name("rrs18to6"), 6371.22);
+  EXPECT_NEAR(width(rrs, 15), 16.671279447372207, 1e-5);
+  EXPECT_NEAR(width(rrs, -90), 6, 1e-5);
+  EXPECT_NEAR(rrs.cells, 6069837, 60);
+  EXPECT_TRUE(methods::widths_of_name("ec30to60").values.empty());
+}
+
 TEST(width_formula, is_as_documented) {
   const double km = 1 / 6371.0 / kDegree;  // in degrees
   const Widths disc = WidthFormula("disc:10,120,500,1000,20,-30").widths(6371);
