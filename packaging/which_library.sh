@@ -53,7 +53,8 @@ fi
 readelf --debug-dump=info "$subject" 2> /dev/null |
   grep -oE '(real|integer)\(kind=[0-9]+\)|GNU Fortran.*' | tr ' ' '\n' |
   grep -xE '(real|integer)\(kind=[48]\)|Fortran[0-9]*|-f(default-|real-4-|integer-4-)(real|integer)-8' | sort -u > "$work/debug" || true
-# bytes KIND FEWER: 4 or 8 by the debug information, else FEWER, which is 4, 8, or 0 for unknown
+# bytes KIND SEEN: 4 or 8 by the debug information; if that does not tell, SEEN, what the instructions tell: 4, 8, or 0 if
+# they do not tell either
 bytes() {
   case $(tr '\n' ' ' < "$work/debug") in
     *-f*"$1-8 "*) echo 8 ;;
@@ -85,7 +86,7 @@ case $args,$reals,$integers in
   8,8,4) abi=8arg ;;
   12,8,8) abi=i8 ;;
   *0*)
-    echo "Which library, these do not tell: compile with -g and ask again, or go by \"Which library\" in docs/relink.md"
+    echo "Which library, these do not tell: compile with -g and ask again, or go by \"Your line\" in docs/relink.md"
     exit 1 ;;
   *)
     echo "There is no library for this combination: copy the arrays to real(8) and 32-bit integers, and call libstripack"
