@@ -151,9 +151,11 @@ const std::vector<Table> kTables{
     {"busy", [](const Call& c) { run_time_of_threads_on_busy_machine(c.self, c.settings.repeats); }},
     {"first-call",
      [](const Call& c) {
-       run_time_of_first_calls(c.self, {2562, 10242, 40962, 163842, 1000000, 10000000}, c.settings.repeats);
+       run_time_of_first_calls(c.self, {2562, 10242, 40962, 163842, 1000000, 10000000},
+                               c.original_library ? &c.original_library->library() : nullptr,
+                               c.settings.repeats);
      }},
-    {"first-call-1e8", [](const Call& c) { run_time_of_first_calls(c.self, {100000000}, 1); }},
+    {"first-call-1e8", [](const Call& c) { run_time_of_first_calls(c.self, {100000000}, nullptr, 1); }},
     {"thread-counts", [](const Call& c) { run_scaling_of_threads(c.self, c.settings.repeats); }},
     {"distributions", [](const Call& c) { run_time_of_distributions(c.settings.sets, c.settings.repeats); }},
     table_of_queries("queries-1e4", 10000),

@@ -57,7 +57,9 @@ double seconds_of_scvt(const Model& model) {
   });
 }
 
-ModelFigures first_call(const Model& model) {
+}  // namespace
+
+ModelFigures first_call(const Model& model, const legacy_stripack::Library* original) {
   std::vector<double> x, y, z;
   for (std::vector<double>* const v : {&x, &y, &z}) v->reserve(static_cast<std::size_t>(model.n));
   for (const pstripack::Point& p :
@@ -65,14 +67,23 @@ ModelFigures first_call(const Model& model) {
     x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
   const auto array = [](std::size_t n) { return std::unique_ptr<int[]>(new int[n]); };
   const std::size_t slots = 6 * x.size() - 12;
-  const auto list = array(slots), lptr = array(slots), lend = array(x.size());
+  const auto list = array(slots), lptr = array(slots), lend = array(x.size()), near = array(x.size()),
+             next = array(x.size());
+  const std::unique_ptr<double[]> dist(new double[x.size()]);
   int lnew, ier = 0;
   const double seconds = seconds_of([&] {
-    ier = pstripack_trmesh(model.n, x.data(), y.data(), z.data(), list.get(), lptr.get(), lend.get(), &lnew);
+    if (original != nullptr)
+      original->trmesh(&model.n, x.data(), y.data(), z.data(), list.get(), lptr.get(), lend.get(), &lnew,
+                       near.get(), next.get(), dist.get(), &ier);
+    else
+      ier =
+          pstripack_trmesh(model.n, x.data(), y.data(), z.data(), list.get(), lptr.get(), lend.get(), &lnew);
   });
   if (ier != 0) throw std::runtime_error(fmt::format("TRMESH returned IER = {}", ier));
   return {seconds, bytes_in("/proc/self/status", "VmHWM:") / model.n};
 }
+
+namespace {
 
 double seconds_of_reading(const Model& model) {
   const Nodes nodes(comparison::nodes_in_order(model.points, static_cast<std::size_t>(model.n), model.order));
@@ -87,7 +98,7 @@ double seconds_of_reading(const Model& model) {
 
 int be_the_model(const Model& model) {
   if (model.work == Work::first) {
-    const ModelFigures first = first_call(model);
+    const ModelFigures first = first_call(model, nullptr);
     fmt::print("{} {}\n", first.seconds, first.peak);
     return 0;
   }

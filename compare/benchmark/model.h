@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "library.h"
+
 namespace benchmark {
 
 /// What a call of the model does: triangulates; the same as the first call of a process, for lists that the
@@ -22,6 +24,9 @@ struct ModelFigures {
   double seconds = 0, peak = 0;  ///< seconds per call; peak memory of the first call in bytes per node,
                                  ///< beside the arrays of the call; Work::first: with them
 };
+
+/// A call that must be the first of this process: of ours, or of the original if it is given.
+ModelFigures first_call(const Model& model, const legacy_stripack::Library* original);
 
 /// Runs this program as the model. Returns the exit code.
 int be_the_model(const Model& model);

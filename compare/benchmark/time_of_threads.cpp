@@ -11,8 +11,10 @@
 #include <thread>
 #include <vector>
 
+#include "contenders.h"
 #include "measuring.h"
 #include "model.h"
+#include "orders.h"
 #include "time_of_warm_starts.h"
 
 namespace benchmark {
@@ -102,28 +104,38 @@ void run_scaling_of_threads(const std::string& self, int repeats) {
   print("scvt, 60 to 30 km", 320000, 1, of(Work::widths));
 }
 
-void run_time_of_first_calls(const std::string& self, const std::vector<int>& sizes, int repeats) {
+void run_time_of_first_calls(const std::string& self, const std::vector<int>& sizes,
+                             const legacy_stripack::Library* original_library, int repeats) {
   fmt::print(
-      "\nthe first call of TRMESH in a process, random nodes: milliseconds; peak of the process, bytes a "
-      "node\n\n"
-      "{:>10} {:>10} {:>8} {:>10} {:>8} {:>14}\n",
-      "N", "1 thread", "peak", "default", "peak", "later, 1 thread");
+      "\nthe first call of TRMESH in a process, and later ones, random nodes: milliseconds; peak of the "
+      "process, bytes a node\n\n"
+      "{:>10} {:>10} {:>8} {:>10} {:>8} {:>16} {:>16} {:>16}\n",
+      "N", "1 thread", "peak", "default", "peak", "later, 1 thread", "original, first", "original, later");
   for (const int n : sizes) {
-    Samples one, all, later;
+    const Model model{"random", "given", n, 1, Work::first};
+    const Nodes nodes(n <= 1000000 ? comparison::nodes_in_order(model.points, std::size_t(n), model.order)
+                                   : std::vector<pstripack::Point>{});
+    const int calls = std::clamp(1000000 / n, 1, 100);
+    Samples one, all, later, theirs, theirs_later;
     double peak_of_one = 0, peak_of_all = 0;
     while (!one.enough(repeats)) {
-      const ModelFigures by_one = as_model(self, "OMP_NUM_THREADS=1", {"random", "given", n, 1, Work::first}),
-                         by_all =
-                             as_model(self, "env -u OMP_NUM_THREADS", {"random", "given", n, 1, Work::first});
+      const ModelFigures by_one = as_model(self, "OMP_NUM_THREADS=1", model),
+                         by_all = as_model(self, "env -u OMP_NUM_THREADS", model);
       one.add(by_one.seconds), all.add(by_all.seconds);
       peak_of_one = by_one.peak, peak_of_all = by_all.peak;
       if (n <= 10000000)  // more would not fit beside the arrays of this program
-        later.add(as_model(self, "OMP_NUM_THREADS=1", {"random", "given", n, std::clamp(1000000 / n, 1, 100)})
-                      .seconds);
+        later.add(as_model(self, "OMP_NUM_THREADS=1", {"random", "given", n, calls}).seconds);
+      if (original_library == nullptr || nodes.n() == 0) continue;
+      theirs.add(measured([&] { return first_call(model, original_library).seconds; }));
+      const Stripack library = original(*original_library);
+      theirs_later.add(
+          measured([&] { return seconds_a_call(Routine::trmesh, library, nodes, nullptr, calls); }));
     }
-    fmt::print("{:>10} {:>10.2f} {:>8.0f} {:>10.2f} {:>8.0f} {:>14}\n", n, 1e3 * one.median(), peak_of_one,
-               1e3 * all.median(), peak_of_all,
-               later.empty() ? "-" : fmt::format("{:.2f}", 1e3 * later.median()));
+    const auto ms = [](const Samples& s) {
+      return s.empty() ? "-" : fmt::format("{:.2f}", 1e3 * s.median());
+    };
+    fmt::print("{:>10} {:>10} {:>8.0f} {:>10} {:>8.0f} {:>16} {:>16} {:>16}\n", n, ms(one), peak_of_one,
+               ms(all), peak_of_all, ms(later), ms(theirs), ms(theirs_later));
     std::fflush(stdout);
   }
 }
