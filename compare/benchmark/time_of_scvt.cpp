@@ -116,25 +116,19 @@ void run_descents(const DescentSettings& settings) {
       options.tolerance = settings.tolerance;
       options.most_evaluations = settings.evaluations;
       std::int64_t before = 0;  // number of generators of the level
-      double of_levels = 0, of_this = 0, shown = 0;
-      std::string row;  // not printed: every row has a tenth more evaluations, and the last one is printed
+      double of_levels = 0, of_this = 0;
       const double start = cpu_seconds();
       options.progress = [&](const Progress& p) {
         if (p.generators != before) of_levels += of_this;
         before = p.generators;
         of_this = static_cast<double>(p.evaluations * p.generators) / settings.n;
-        const double evaluations = of_levels + of_this;
-        if (p.generators != settings.n) return true;
-        row = fmt::format("{:<8} {:<7} {:>12.1f} {:>12.3f} {:>9.2e} {:>10.5f}\n",
-                          d.method == Method::lloyd ? "lloyd" : "newton", name_of(d.first), evaluations,
-                          cpu_seconds() - start, p.gradient, p.energy * static_cast<double>(p.generators));
-        if (evaluations < 1.1 * shown) return true;
-        shown = evaluations;
-        fmt::print("{}", std::exchange(row, ""));
+        if (p.generators == settings.n)
+          fmt::print("{:<8} {:<7} {:>12.1f} {:>12.3f} {:>9.2e} {:>10.5f}\n",
+                     d.method == Method::lloyd ? "lloyd" : "newton", name_of(d.first), of_levels + of_this,
+                     cpu_seconds() - start, p.gradient, p.energy * static_cast<double>(p.generators));
         return true;
       };
       descend(n, density, d.first, options);
-      fmt::print("{}", row);
       std::fflush(stdout);
     });
 }
