@@ -722,7 +722,7 @@ TEST(Partitions, CutsAreMovedToWhereAllNodesAreShared) {
     Nodes places;
     for (const SentNode& r : sample) places.push_back(r.point);
     const auto most = [&](const Cuts& cuts) {
-      const Partition partition(cuts, places, nodes.size());
+      const Partition partition(cuts, nodes.size());
       std::vector<std::size_t> count(kPatches);
       for (const Point& x : nodes) ++count[static_cast<std::size_t>(partition.owner(x))];
       return static_cast<double>(*std::max_element(count.begin(), count.end())) * kPatches /
@@ -744,7 +744,7 @@ TEST(Partitions, CutsStayWhereThereIsNothingToCount) {
       const Cuts cuts = Cuts::of_sample(5, places, counted);
       ASSERT_EQ(cuts.all().size(), 4u);
       for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(cuts.all()[k].height, at_medians.all()[k].height);
-      EXPECT_EQ(Partition(cuts, places, n).patches(), 5);
+      EXPECT_EQ(Partition(cuts, n).patches(), 5);
     }
   }
   EXPECT_EQ(Cuts::levels(1), 0);

@@ -115,7 +115,7 @@ error_calls | error_meshes)
   until_it_says 'call 2'
   : > fail
   ends
-  [ "$(grep -c '^pstripack: rank 1: MPI error in phase [a-z]' job.err)" -eq 1 ] || fail "no line, or several"
+  [ "$(grep -c '^pstripack: rank 1: MPI error: [A-Z]' job.err)" -eq 1 ] || fail "no line, or several"
   ;;
 *)
   fail "no such case"

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <new>
 #include <utility>
 
 namespace pstripack {
@@ -39,7 +38,7 @@ class CacheReservation {
   const std::size_t bytes_;
 };
 
-/// Holds a T until free_cached_things() destroys it.
+/// Holds a T, a CachedThing, until free_cached_things() destroys it.
 template <class T>
 class Cached {
  public:
@@ -51,29 +50,22 @@ class Cached {
   }
   ~Cached() { take(); }
 
-  /// Stores `value`, or destroys it if there is no free place or no memory.
+  /// Stores `value`, or destroys it if there is no free place.
   void put(std::unique_ptr<T> value) noexcept {
     take();
-    try {
-      std::unique_ptr<CachedThing> thing = std::make_unique<Thing>(std::move(value));
-      place_ = take_place();
-      if (place_ >= 0) put_into(place_, thing);
-    } catch (const std::bad_alloc&) {
-    }
+    place_ = take_place();
+    std::unique_ptr<CachedThing> thing = std::move(value);
+    if (place_ >= 0) put_into(place_, thing);
   }
   /// The stored value; null if it has been destroyed.
   std::unique_ptr<T> take() noexcept {
     if (place_ < 0) return nullptr;
-    const std::unique_ptr<CachedThing> thing = take_out_of(place_);
+    std::unique_ptr<CachedThing> thing = take_out_of(place_);
     return_place(std::exchange(place_, -1));
-    return thing == nullptr ? nullptr : std::move(static_cast<Thing&>(*thing).value);
+    return std::unique_ptr<T>(static_cast<T*>(thing.release()));
   }
 
  private:
-  struct Thing : CachedThing {
-    explicit Thing(std::unique_ptr<T> v) : value(std::move(v)) {}
-    std::unique_ptr<T> value;
-  };
   int place_ = -1;
 };
 

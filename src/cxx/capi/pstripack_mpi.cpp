@@ -71,7 +71,6 @@ std::int32_t guarded(MpiCommunicator& ranks, const Body& body) noexcept {
     try {
       return body();
     } catch (const AgreedFailure&) {
-      ranks.set_phase("idle");
       throw;
     } catch (const std::exception& error) {
       ranks.abort("error", error.what());
@@ -133,18 +132,15 @@ int rank_with_another_order(MpiCommunicator& ranks) {
   return rank;
 }
 
-/// Writes the line of a code that STRIPACK does not have. `what`: whom it is about, and a colon.
-std::int32_t told(const char* routine, std::int32_t code, const char* what = "") {
-  if (code < PSTRIPACK_COLLINEAR)
-    std::fprintf(stderr, "pstripack: %s: %s%s (IER = %d)\n", routine, what, pstripack_strerror(code),
-                 static_cast<int>(code));
-  return code;
-}
-
-/// The same with a text of its own.
+/// Writes the line of a code.
 std::int32_t told_that(const char* routine, std::int32_t code, const char* text) {
   std::fprintf(stderr, "pstripack: %s: %s (IER = %d)\n", routine, text, static_cast<int>(code));
   return code;
+}
+
+/// The same for a code that STRIPACK does not have.
+std::int32_t told(const char* routine, std::int32_t code) {
+  return code < PSTRIPACK_COLLINEAR ? told_that(routine, code, pstripack_strerror(code)) : code;
 }
 
 constexpr const char* kNotFromHere = "MPI is not running, or must not be called by this thread or process";
@@ -371,7 +367,7 @@ int32_t pstripack_set_comm_f(MPI_Fint comm) {
   int is_initialised = 0;
   MPI_Initialized(&is_initialised);
   if (!is_initialised)  // what the handle means is not known before
-    return told("set_comm", PSTRIPACK_BAD_COMM, "called before MPI_Init: ");
+    return told_that("set_comm", PSTRIPACK_BAD_COMM, "called before MPI_Init");
   return pstripack_set_comm(communicator_of(comm));
 }
 void pstripack_set_comm_(const MPI_Fint* comm) { pstripack_set_comm_f(*comm); }
@@ -404,19 +400,17 @@ int32_t pstripack_mesh_triangulate(pstripack_mesh* mesh, int64_t n, const double
         mesh->mesh.begin(MeshCall::triangulate);
         return mesh->mesh.triangulate(n, xyz, number, report);
       });
-  if (mesh->mesh.rank() != 0) return code;
-  if (mesh->mesh.has_begun_different_calls())
-    return told_that("mesh_triangulate", code, text_of_calls(mesh->mesh).text);
-  if (const WrongArgument& n = mesh->mesh.wrong_argument(); n.rank >= 0)
-    return told_that("mesh_triangulate", code, text_of_count(n, "number").text);
   const auto first = static_cast<long long>(mesh->mesh.error_point(0)),
              second = static_cast<long long>(mesh->mesh.error_point(1));
-  char points[64] = "";
-  if (second != 0)
-    std::snprintf(points, sizeof points, "points %lld and %lld: ", first, second);
+  Text line{};
+  if (const WrongArgument& n = mesh->mesh.wrong_argument(); n.rank >= 0)
+    line = text_of_count(n, "number");
+  else if (second != 0)
+    std::snprintf(line.text, sizeof line.text, "points %lld and %lld: %s", first, second,
+                  pstripack_strerror(code));
   else if (first != 0 || code == PSTRIPACK_BAD_NUMBER)
-    std::snprintf(points, sizeof points, "point %lld: ", first);
-  return told("mesh_triangulate", code, points);
+    std::snprintf(line.text, sizeof line.text, "point %lld: %s", first, pstripack_strerror(code));
+  return told_by_rank_0(mesh->mesh, MeshCall::triangulate, code, line);
 }
 
 void pstripack_mesh_error_points(const pstripack_mesh* mesh, int64_t* first, int64_t* second) {
@@ -546,7 +540,6 @@ int32_t pstripack_mesh_scvt(pstripack_mesh* handle, int64_t n, double* xyz, cons
     });
   });
   if (code == PSTRIPACK_OK) return code;
-  ranks.set_phase("idle");
   if (!mesh.empty()) mesh.make_empty();  // an empty mesh must keep its error points
   return code;
 }

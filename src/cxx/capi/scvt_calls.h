@@ -59,16 +59,8 @@ std::int32_t guarded_scvt(char* message, std::int32_t length, const Body& body) 
     return PSTRIPACK_OK;
   } catch (const Refusal& refusal) {
     return say(refusal.code, refusal.why.c_str());
-  } catch (const scvt::CoincidentGenerators& error) {
-    return say(PSTRIPACK_COINCIDENT, error.what());
-  } catch (const scvt::GeneratorsTooNear& error) {
-    return say(PSTRIPACK_COINCIDENT, error.what());
-  } catch (const scvt::BadNumber& error) {
-    return say(PSTRIPACK_BAD_NUMBER, error.what());
-  } catch (const scvt::GeneratorsInHemisphere& error) {
-    return say(PSTRIPACK_HEMISPHERE, error.what());
-  } catch (const scvt::BadGenerators& error) {
-    return say(PSTRIPACK_BAD_COORDINATE, error.what());
+  } catch (const scvt::NoTessellation& error) {
+    return say(error.code, error.what());
   } catch (const AgreedFailure& failure) {
     return say(failure.code, pstripack_strerror(failure.code));
   } catch (const std::bad_alloc&) {

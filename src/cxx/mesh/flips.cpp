@@ -339,7 +339,7 @@ bool MovingMesh::test(const Mark& given) {
   flips_ = 0;
   work_ = 8 * n_ + 1000;  // with more work a new triangulation is faster
   Mark mark = given;
-  for (CurveNode& corner : mark.corner) corner = corner == kNobody ? kNobody : inside_[corner];
+  for (CurveNode& corner : mark.corner) corner = inside(corner);
   const int threads = threads_for(n_);
   std::atomic<bool> stopped{false};
   std::vector<std::vector<Arc>> suspects(static_cast<std::size_t>(threads));
@@ -404,11 +404,10 @@ bool MovingMesh::is_convex_inside(const Quadrangle& q) const {
 }
 
 bool MovingMesh::is_convex(const Quadrangle& q) const {
-  return is_convex_inside({inside_[q.a], inside_[q.b], inside_[q.c], inside_[q.d]});
+  return is_convex_inside({inside(q.a), inside(q.b), inside(q.c), inside(q.d)});
 }
 
 bool MovingMesh::flip(const Quadrangle& q) {
-  const auto inside = [&](MeshNode k) { return k == kNobody ? kNobody : inside_[k]; };
   return flip_here({inside(q.a), inside(q.b), inside(q.c), inside(q.d)});
 }
 
@@ -440,10 +439,7 @@ void MovingMesh::suspect_inside(CurveNode a, CurveNode b) {
   if (!is_outside(a)) suspects_.push_back({a, b});
 }
 
-void MovingMesh::suspect(MeshNode a, MeshNode b) {
-  const auto inside = [&](MeshNode k) { return k == kNobody ? kNobody : inside_[k]; };
-  suspect_inside(inside(a), inside(b));
-}
+void MovingMesh::suspect(MeshNode a, MeshNode b) { suspect_inside(inside(a), inside(b)); }
 
 MeshNode MovingMesh::add_outside(const Point& p) {
   if (all_ == most_) return kNobody;

@@ -157,6 +157,7 @@ class MovingMesh {
             std::vector<Arc>& suspects) const;
   bool examine(CurveNode v, const Mark& mark, std::vector<Arc>& suspects) const;
   bool is_outside(CurveNode v) const { return v >= n_; }
+  CurveNode inside(MeshNode k) const { return k == kNobody ? kNobody : inside_[k]; }
   void suspect_inside(CurveNode a, CurveNode b);
   bool find(const Arc& arc, Quadrangle& q);
   bool is_above(CurveNode a, CurveNode b, CurveNode c, CurveNode d, bool& differs) const;

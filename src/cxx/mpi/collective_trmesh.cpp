@@ -98,7 +98,6 @@ TrmeshResult disagreement(std::int32_t n, std::int64_t hash, MpiCommunicator& ra
 
 /// For Arrays::on_every_rank, where every rank has all nodes. Collective.
 Share take_slice(const TrmeshCall& call, bool wants_cost, MpiCommunicator& ranks) {
-  ranks.set_phase("agree on the arguments");
   Share share;
   CallHeader& header = share.header;
   const std::int32_t n = header.n = call.n, count_code = code_of_count(n);
@@ -135,7 +134,6 @@ Share take_slice(const TrmeshCall& call, bool wants_cost, MpiCommunicator& ranks
 
 /// For Arrays::on_one_rank and shared. Collective.
 Share receive_slice(const TrmeshCall& call, Arrays arrays, bool wants_cost, MpiCommunicator& ranks) {
-  ranks.set_phase("scatter the nodes");
   const bool is_root = ranks.rank() == 0;
   Share share;
   CallHeader& header = share.header;
@@ -191,14 +189,22 @@ Share share_of(const TrmeshCall& call, Arrays arrays, bool wants_cost, MpiCommun
 /// A call carried out by ranks, each of which has a slice of the nodes.
 class ByRanks {
  public:
-  /// `share`: as share_of(), with result 0.
+  /// `share`: as share_of(), with result 0. Collective. Throws AgreedFailure.
   ByRanks(MpiCommunicator& ranks, Arrays arrays, const ListArrays& lists, Share& share, ParallelCost& cost)
-      : ranks_(ranks), arrays_(arrays), lists_(lists), share_(share), cost_(cost) {}
+      : ranks_(ranks), arrays_(arrays), lists_(lists), share_(share), cost_(cost) {
+    in_agreement(ranks_, [&] {
+      begin_.resize(static_cast<std::size_t>(ranks_.size()) + 1);
+      options_ = options_from_environment(share_.count);
+    });
+    options_.partition = share_.header.partition;
+    cost_.set_threads({options_.threads, options_.thread_limit});
+  }
 
   /// Collective, as triangulate_and_write() asks for.
   std::optional<Coincidence> triangulate(std::size_t n) {
     const auto me = static_cast<std::size_t>(ranks_.rank());
-    find_slices(n);
+    for (std::size_t r = 0; r < begin_.size(); ++r)
+      begin_[r] = std::min(n, share_.header.slice(static_cast<int>(r), ranks_));
     const std::size_t count = begin_[me + 1] - begin_[me];
     if (n < this->n()) {  // the second try, without nodes that coincide
       share_.check = check_nodes(share_.nodes, count);
@@ -213,7 +219,6 @@ class ByRanks {
     return first;
   }
   void write() {
-    ranks_.set_phase("gather the lists");
     const PhaseTimer timer(&cost_, ParallelCost::gather, &ranks_);
     gather_lists(ranks_, stars_.of_node, begin_, arrays_, 0, lists_);
   }
@@ -225,30 +230,15 @@ class ByRanks {
     return {share_.nodes, count, nullptr, static_cast<std::int64_t>(share_.first) + 1,
             share_.of_all_ranks ? &*share_.of_all_ranks : nullptr};
   }
-  /// Sets the slices for the first n nodes. Collective.
-  void find_slices(std::size_t n) {
-    if (!knows_slices_) {
-      in_agreement(ranks_, [&] {
-        begin_.resize(static_cast<std::size_t>(ranks_.size()) + 1);
-        options_ = options_from_environment(share_.count);
-      });
-      knows_slices_ = true;  // on all ranks or on none
-      options_.partition = share_.header.partition;
-      cost_.set_threads({options_.threads, options_.thread_limit});
-    }
-    for (std::size_t r = 0; r < begin_.size(); ++r)
-      begin_[r] = std::min(n, share_.header.slice(static_cast<int>(r), ranks_));
-  }
 
   MpiCommunicator& ranks_;
   const Arrays arrays_;
   const ListArrays& lists_;
   Share& share_;
   ParallelCost& cost_;
-  // The last triangulation:
   ParallelOptions options_;
+  // The last triangulation:
   std::vector<std::size_t> begin_;  ///< by rank: the begin of its slice; then the number of nodes
-  bool knows_slices_ = false;
   Stars<std::int32_t> stars_;
 };
 
@@ -288,7 +278,6 @@ TrmeshResult collective_trmesh(MpiCommunicator& ranks, Arrays arrays, const Trme
     const GroupCost all = group_cost(ranks, mine);
     if (cost != nullptr) *cost = all;
   }
-  ranks.set_phase("idle");
   return result;
 }
 

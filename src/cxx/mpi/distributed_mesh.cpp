@@ -55,13 +55,11 @@ std::int32_t DistributedMesh::triangulate(std::int64_t n, const double* xyz, con
   }
   if (code != 0) homes_.reset();
   report_on(mine, sent_before, report);
-  ranks_.set_phase("idle");
   return code;
 }
 
 std::int32_t DistributedMesh::triangulate_points(const LocalNodes& points, bool numbers_are_known,
                                                  Report* report, ParallelCost& cost) {
-  ranks_.set_phase("check the points");
   Numbering numbering;
   {
     const PhaseTimer timer(&cost, ParallelCost::divide, &ranks_);
@@ -86,7 +84,6 @@ std::int32_t DistributedMesh::triangulate_points(const LocalNodes& points, bool 
 template <class Int>
 std::int32_t DistributedMesh::triangulate_into(const LocalNodes& points, const Numbering& numbering,
                                                ParallelCost& cost) {
-  ranks_.set_phase("triangulate");
   // The numbers that the caller gives are of no use to the ranks; a counted one tells who has the point.
   const auto me = static_cast<RankNumber>(ranks_.rank());
   const NodeRanges& ranges = numbering.ranges;
@@ -237,7 +234,6 @@ void DistributedMesh::relocate(Relocation& relocation, const LocalNodes& points)
 
 bool DistributedMesh::move_stars(std::unique_ptr<MovingStars> moving, std::optional<Relocation> relocation,
                                  const LocalNodes& points, ParallelCost& cost) {
-  ranks_.set_phase("move the stars");
   {
     const PhaseTimer timer(&cost, ParallelCost::divide, &ranks_);
     if (relocation) relocate(*relocation, points);
@@ -296,7 +292,6 @@ std::int32_t DistributedMesh::gather(std::int32_t root, const ListArrays& lists,
     code = gather_stars(root, lists);
   }
   report_on(mine, sent_before, report);
-  ranks_.set_phase("idle");
   return code;
 }
 
@@ -344,11 +339,9 @@ std::int32_t DistributedMesh::end_exchange(std::int64_t width, void* halo_values
 
 std::int32_t DistributedMesh::check(std::uint64_t* fingerprint) {
   begin(MeshCall::check);
-  ranks_.set_phase("check the stars");
   error_point_[0] = error_point_[1] = 0;
   if (empty()) return PSTRIPACK_EMPTY_MESH;
   const OwnStars::Checked found = own_.check(ranks_);
-  ranks_.set_phase("idle");
   if (found.wrong.exists()) error_point_[0] = found.wrong.value;
   if (found.wrong.exists() || !found.is_sphere_or_disc) return PSTRIPACK_BAD_LISTS;
   if (fingerprint != nullptr) *fingerprint = found.fingerprint;
@@ -366,7 +359,6 @@ std::int32_t DistributedMesh::gather_stars(std::int32_t root, const ListArrays& 
   if (root < kEveryRank || root >= ranks_.size()) return PSTRIPACK_BAD_COMM;
   if (!numbers_are_dense_) return PSTRIPACK_BAD_NUMBER;
   if (total_ > most_nodes<std::int32_t>()) return PSTRIPACK_TOO_MANY_NODES;
-  ranks_.set_phase("gather the lists");
   const auto n = static_cast<std::size_t>(total_), size = static_cast<std::size_t>(ranks_.size()),
              me = static_cast<std::size_t>(ranks_.rank());
 

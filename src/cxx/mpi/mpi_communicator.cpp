@@ -143,7 +143,7 @@ bool MpiCommunicator::ranks_outnumber_processors() {
 }
 
 void MpiCommunicator::abort(const char* kind, const char* text) const {
-  std::fprintf(stderr, "pstripack: rank %d: %s in phase %s: %s\n", rank_, kind, phase_, text);
+  std::fprintf(stderr, "pstripack: rank %d: %s: %s\n", rank_, kind, text);
   std::fflush(stderr);
   MPI_Abort(comm_, 1);
   std::abort();

@@ -13,7 +13,7 @@
 namespace pstripack {
 
 /// Owns a duplicate of an intra-communicator, with MPI_ERRORS_RETURN. An MPI error that ranks cannot agree
-/// on (a lost process) ends the job: one line on stderr names rank and phase, then MPI_Abort.
+/// on (a lost process) ends the job: one line on stderr names the rank, then MPI_Abort.
 ///
 /// Every wait, for a message or a collective, polls with pauses: it takes little processor time while other
 /// ranks compute, also if there are more ranks than processors. For one thread at a time.
@@ -60,14 +60,8 @@ class MpiCommunicator : public Communicator {
     start(Way::in, all, begin, const_cast<void*>(mine), size, root);
   }
 
-  void set_phase(const char* phase) override {
-    phase_ = phase;
-    if (phase_place_ != nullptr) *phase_place_ = phase;
-  }
   /// Messages from now on, on all ranks; at first 0. Messages with different tags never match. At most 32767.
   void set_tag(int tag) { tag_ = tag; }
-  /// From now on the phase is also stored in *place; null: no longer.
-  void show_phase_in(const char* volatile* place) { phase_place_ = place; }
   MPI_Comm handle() const { return comm_; }
 
   /// Ends the job with one line on stderr, for errors that ranks cannot agree on. kind: such as "MPI error".
@@ -104,8 +98,6 @@ class MpiCommunicator : public Communicator {
   int rank_ = 0, size_ = 1, tag_ = 0;
   std::size_t longest_message_;
   bool crowded_ = false;
-  const char* phase_ = "idle";
-  const char* volatile* phase_place_ = nullptr;
   /// One number per rank, allocated once so that an agreement needs no memory.
   std::vector<std::int64_t> sizes_, other_sizes_;
   std::vector<Routed> moving_, leaving_, arriving_;

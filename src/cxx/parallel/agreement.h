@@ -154,16 +154,4 @@ Parcels exchange_in_agreement(Communicator& ranks, const Body& body) {
   }
 }
 
-/// The items of all ranks, in the order of the ranks. Collective. Throws AgreedFailure.
-template <class Item>
-std::vector<Item> gather_in_agreement(Communicator& ranks, const std::vector<Item>& mine) {
-  const Parcels all = ranks.all_gather(mine.data(), mine.size() * sizeof(Item));
-  std::vector<Item> together;
-  in_agreement(ranks, [&] {
-    const Items<Item> items(all);
-    together.assign(items.begin(), items.end());
-  });
-  return together;
-}
-
 }  // namespace pstripack

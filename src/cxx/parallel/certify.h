@@ -30,7 +30,10 @@ CoincidentPairs all_coincident(const Patches<Int>& patches, Communicator& ranks)
     for (const Patch<Int>& patch : patches.of_rank)
       pairs.insert(pairs.end(), patch.coincident().begin(), patch.coincident().end());
   });
-  return gather_in_agreement(ranks, pairs);
+  const Parcels all = ranks.all_gather(pairs.data(), pairs.size() * sizeof pairs[0]);
+  const Items<CoincidentPairs::value_type> of_all(all);
+  in_agreement(ranks, [&] { pairs.assign(of_all.begin(), of_all.end()); });
+  return pairs;
 }
 
 /// Largest number of triangles of a rank that other patches lack. If these are most, one hull of all nodes

@@ -28,7 +28,7 @@ struct AgreedFailure : std::exception {
 /// The code of a Failure or an AgreedFailure; -6, out of memory, for any other exception.
 std::int32_t code_of(const std::exception_ptr& error);
 
-/// A group of ranks. Every member function but rank(), size() and set_phase() is collective: all ranks call
+/// A group of ranks. Every member function but rank() and size() is collective: all ranks call
 /// it, in the same order. An allocation that fails inside, on any rank, is an AgreedFailure(-6) on all of
 /// them.
 class Communicator {
@@ -67,10 +67,6 @@ class Communicator {
   virtual void start(const Parcels& outgoing, Parcels& incoming) = 0;
   /// Waits for all that this rank has started. Not collective.
   virtual void finish() {}
-
-  /// Tells what this rank does now, for the report if the rank is lost. The text must be a literal. Not
-  /// collective.
-  virtual void set_phase(const char*) {}
 
   /// Bytes that this rank has handed over for other ranks so far; for reports.
   std::int64_t bytes_sent = 0;

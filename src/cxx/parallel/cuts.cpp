@@ -29,7 +29,8 @@ std::vector<double> heights(const Points& p, std::size_t first, std::size_t last
   const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first),
              end = all.begin() + static_cast<std::ptrdiff_t>(last);
   std::nth_element(all.begin(), begin, all.end());
-  std::partial_sort(begin, end, all.end());
+  std::nth_element(begin, end - 1, all.end());
+  std::sort(begin, end - 1);
   return {begin, end};
 }
 
@@ -45,6 +46,7 @@ Cuts Cuts::of_sample(int patches, std::vector<Point> sample, const std::vector<P
     cuts.count(counter.data());
     cuts.move(counter.data());
   }
+  cuts.cut();
   return cuts;
 }
 
@@ -59,37 +61,42 @@ void Cuts::cut() {
   boxes_.clear();
   if (cuts_.empty())
     cut({sample_.data(), sample_.data() + sample_.size()},
-        {counted_.data(), counted_.data() + counted_.size()}, patches_);
+        {counted_.data(), counted_.data() + counted_.size()}, 0, static_cast<int>(of_patch_.size()));
   for (const Box& box : above) {
     const Cut c = cuts_[box.cut];
     const auto separate = [&](const Points& p) {
       return std::partition(p.first, p.last, [&](const Point& x) { return component(x, c.axis) < c.height; });
     };
-    Point *const sample = separate(box.sample), *const counted = separate(box.counted);
-    const auto cut_side = [&](int side, int patches, const Points& of_sample, const Points& of_counted) {
-      if (patches == 1) return;
-      cuts_[box.cut].child[side] = static_cast<std::int32_t>(cuts_.size());
-      cut(of_sample, of_counted, patches);
-    };
-    cut_side(0, c.below, {box.sample.first, sample}, {box.counted.first, counted});
-    cut_side(1, c.patches - c.below, {sample, box.sample.last}, {counted, box.counted.last});
+    Point* const sample = separate(box.sample);
+    Point* const counted = c.patches > 2 ? separate(box.counted) : nullptr;  // no cut follows inside patches
+    const auto next = [&](int patches) { return patches > 1 ? static_cast<std::int32_t>(cuts_.size()) : -1; };
+    const int beyond = c.patches - c.below;
+    cuts_[box.cut].child[0] = next(c.below);
+    cut({box.sample.first, sample}, {box.counted.first, counted}, box.first, c.below);
+    cuts_[box.cut].child[1] = next(beyond);
+    cut({sample, box.sample.last}, {counted, box.counted.last}, box.first + c.below, beyond);
   }
 }
 
-void Cuts::cut(const Points& sample, const Points& counted, int patches) {
+void Cuts::cut(const Points& sample, const Points& counted, PatchNumber first, int patches) {
+  if (patches == 1) {
+    of_patch_[static_cast<std::size_t>(first)] = sample;
+    return;
+  }
   const std::size_t n = sample.size();
-  Cut cut{Extent(sample).longest(), 0, {}, patches, patches / 2, {-1, -1}};
+  const Extent extent(sample);
+  Cut cut{extent.longest(), 0, {}, patches, patches / 2, {-1, -1}, n, extent.diagonal()};
   if (n > 0) {
     // The median of a sample is off by about sqrt(n) / 2 places in the sorted order, and by four times as
     // much once in thousands of cuts.
     const auto reach = static_cast<std::size_t>(2 * std::sqrt(static_cast<double>(n)) + 1);
     const std::size_t middle = n * static_cast<std::size_t>(cut.below) / static_cast<std::size_t>(patches);
-    const std::size_t first = std::max(middle, reach) - reach, last = std::min(n, middle + reach);
-    const std::vector<double> height = heights(sample, first, last, cut.axis);
+    const std::size_t begin = std::max(middle, reach) - reach, end = std::min(n, middle + reach);
+    const std::vector<double> height = heights(sample, begin, end, cut.axis);
     for (std::size_t e = 0; e < kEdges; ++e) cut.edge[e] = height[e * (height.size() - 1) / (kEdges - 1)];
-    cut.height = 0.5 * (height[std::max(middle, first + 1) - 1 - first] + height[middle - first]);
+    cut.height = 0.5 * (height[std::max(middle, begin + 1) - 1 - begin] + height[middle - begin]);
   }
-  boxes_.push_back({sample, counted, static_cast<std::int32_t>(cuts_.size())});
+  boxes_.push_back({sample, counted, first, static_cast<std::int32_t>(cuts_.size())});
   cuts_.push_back(cut);
 }
 

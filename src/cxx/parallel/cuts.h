@@ -16,6 +16,7 @@
 
 #include "base/workspace.h"
 #include "geometry/point.h"
+#include "parallel/local_numbers.h"
 
 namespace pstripack {
 
@@ -52,19 +53,24 @@ class Cuts {
     double edge[kEdges];    ///< between the bins, from below
     int patches, below;     ///< to cut apart, and how many of them lie below
     std::int32_t child[2];  ///< below and beyond; -1: one patch
+    std::size_t sample;     ///< number of sample nodes that it cuts apart
+    double diagonal;        ///< of the box around these
   };
 
   /// No cuts yet. Points have a length of about 1. The sample is the same on every rank; `counted` are nodes
   /// of this rank.
   Cuts(int patches, std::vector<Point> sample, BlockArray<Point> counted)
-      : patches_(patches), sample_(std::move(sample)), counted_(std::move(counted)) {}
+      : sample_(std::move(sample)),
+        counted_(std::move(counted)),
+        of_patch_(static_cast<std::size_t>(patches)) {}
   Cuts(Cuts&&) = default;  // boxes point into the arrays
   /// All cuts, at the medians of the sample, moved by the counts of this rank alone.
   static Cuts of_sample(int patches, std::vector<Point> sample, const std::vector<Point>& counted = {});
 
   /// The number of levels of cuts.
   static int levels(int patches);
-  /// Cuts all boxes at the medians of the sample. Throws std::bad_alloc.
+  /// Cuts all boxes at the medians of the sample. The call after the last level only divides the nodes of the
+  /// boxes among the patches. Throws std::bad_alloc.
   void cut();
   /// Upper bound of the number of counters for the cuts of one level, from 0.
   static std::size_t counters(int level) { return kBins << level; }
@@ -77,19 +83,23 @@ class Cuts {
 
   /// The first cut is the root. Empty if there is one patch.
   const std::vector<Cut>& all() const { return cuts_; }
+  /// The sample nodes of each patch, which may be sorted.
+  const std::vector<Points>& of_patch() const { return of_patch_; }
+  std::size_t sample_size() const { return sample_.size(); }
 
  private:
   struct Box {
     Points sample, counted;
+    PatchNumber first;
     std::int32_t cut;
   };
-  void cut(const Points& sample, const Points& counted, int patches);
+  void cut(const Points& sample, const Points& counted, PatchNumber first, int patches);
 
-  const int patches_;
   std::vector<Point> sample_;
   BlockArray<Point> counted_;
   std::vector<Cut> cuts_;
   std::vector<Box> boxes_;  ///< of this level
+  std::vector<Points> of_patch_;
 };
 
 }  // namespace pstripack

@@ -99,7 +99,7 @@ Outcome cut_anew(const LocalNodes& nodes, GlobalSample& sample, PartitionKind ki
   outcome.go_on([&] {
     places = places_of(sample.nodes, division.places);
     if (!is_bisection) return;
-    cuts.emplace(patches, std::vector<Point>(places),
+    cuts.emplace(patches, std::move(places),
                  places_to_count(nodes, division.nodes, static_cast<std::size_t>(patches), division.places));
   });
   for (int level = 0; is_bisection && level < Cuts::levels(patches); ++level) {
@@ -111,7 +111,8 @@ Outcome cut_anew(const LocalNodes& nodes, GlobalSample& sample, PartitionKind ki
     if (outcome.is_good()) cuts->move(sample.counter.data());
   }
   outcome.go_on([&] {
-    division.partition = cuts ? std::make_shared<Partition>(*cuts, std::move(places), division.nodes)
+    if (cuts) cuts->cut();
+    division.partition = cuts ? std::make_shared<Partition>(*cuts, division.nodes)
                               : std::make_shared<Partition>(kind, patches, std::move(places), division.nodes);
   });
   return outcome;

@@ -28,7 +28,7 @@ SampleOfStars sample_of(const Stars<Int>& stars, const NodeRanges& ranges, RankN
 
 /// The stars of the nodes that this rank brings, and where the nodes are; with those of the other ranks, a
 /// mesh without a boundary.
-class MovingStars {
+class MovingStars : public CachedThing {
  public:
   /// From the stars of these nodes, which may have moved since; numbers in the stars are counted by `ranges`.
   /// Null, on every rank, if the mesh has a boundary or all ranks together have more nodes outside than

@@ -29,25 +29,25 @@ double turn(const Point& p) {
 
 class Partition::Builder {
  public:
-  Builder(Partition& partition, std::vector<Point>& sample, std::size_t nodes)
+  Builder(Partition& partition, std::size_t sample, std::size_t nodes)
       : partition_(partition),
-        whole_{sample.data(), sample.data() + sample.size()},
-        nodes_a_sample_(static_cast<double>(nodes) /
-                        static_cast<double>(std::max<std::size_t>(sample.size(), 1))) {}
+        nodes_a_sample_(static_cast<double>(nodes) / static_cast<double>(std::max<std::size_t>(sample, 1))) {}
 
   void bisect(const Cuts& cuts) {
-    boxes(cuts, cuts.all().empty() ? -1 : 0, whole_, 0, {}, kEverything);
+    boxes(cuts, cuts.all().empty() ? -1 : 0, 0, {}, kEverything);
     for (PatchNumber q = 0; q < partition_.patches(); ++q) find_beside(partition_.regions_[q], q, 0);
   }
 
-  void stripe() {
-    choose_borders();
+  void stripe(const Points& sample) {
+    choose_borders(sample);
     const Plane& half = partition_.borders_[0];
     const auto last = static_cast<PatchNumber>(partition_.patches() - 1);
     PatchNumber k = 0;  // the stripe in which the half circle from the first border on ends
     while (k < last && product(half, vector_of(partition_.borders_[k + 1])) >= 0) ++k;
-    cut(half, separate(half, whole_), whole_,
-        [&](bool beyond, const Points& p) { return beyond ? wedges(0, k, p) : wedges(k, last, p); });
+    Point* const middle = separate(half, sample);
+    cut(half, [&](bool beyond) {
+      return beyond ? wedges(0, k, {middle, sample.last}) : wedges(k, last, {sample.first, middle});
+    });
   }
 
  private:
@@ -72,14 +72,13 @@ class Partition::Builder {
 
   // -- cells
 
-  /// A cell that is cut: child(beyond, points) makes the cell of each side.
+  /// A cell that is cut: child(beyond) makes the cell of each side.
   template <class MakeChild>
-  std::int32_t cut(const Plane& split, Point* middle, const Points& p, const MakeChild& child) {
+  std::int32_t cut(const Plane& split, const MakeChild& child) {
     std::vector<Cell>& cells = partition_.cells_;
     const auto k = static_cast<std::int32_t>(cells.size());
     cells.push_back({split, {0, 0}, -1, 0});
-    const std::int32_t below = child(false, Points{p.first, middle}),
-                       beyond = child(true, Points{middle, p.last});
+    const std::int32_t below = child(false), beyond = child(true);
     const Cell &a = cells[below], &b = cells[beyond];
     cells[k] = {split, {below, beyond}, a.patch == b.patch ? a.patch : -1, std::max(a.reach, b.reach)};
     return k;
@@ -88,15 +87,16 @@ class Partition::Builder {
   /// The cells of one patch. Stripes are bisected along their length only.
   std::int32_t cells_of_patch(const Points& p, PatchNumber patch, double reach, bool along_z, int level = 0) {
     const Extent extent(p);
-    reach = reach_of(extent, p.size(), reach);
+    reach = reach_of(extent.diagonal(), p.size(), reach);
     const int axis = along_z ? 2 : extent.longest();
     if (extent.length(axis) > 0 && level < kMostLevels)
       if (const std::optional<double> height = split_height(p, axis, extent)) {
         const Plane split = across(axis, *height);
         Point* const middle = separate(split, p);
         if (middle != p.first && middle != p.last)
-          return cut(split, middle, p, [&](bool, const Points& half) {
-            return cells_of_patch(half, patch, reach, along_z, level + 1);
+          return cut(split, [&](bool beyond) {
+            return cells_of_patch(beyond ? Points{middle, p.last} : Points{p.first, middle}, patch, reach,
+                                  along_z, level + 1);
           });
       }
     partition_.cells_.push_back({{0, 0, 0, 2 * kEverything}, {0, 0}, patch, reach});
@@ -107,9 +107,9 @@ class Partition::Builder {
 
   /// The reach of a cell, from its size and the number of nodes that its sample stands for; the reach of
   /// the cell around it if the sample is too small to tell.
-  double reach_of(const Extent& extent, std::size_t n, double of_parent) const {
+  double reach_of(double diagonal, std::size_t n, double of_parent) const {
     if (n < 4) return of_parent;
-    return kReachSpacings * extent.diagonal() / std::sqrt(static_cast<double>(n) * nodes_a_sample_);
+    return kReachSpacings * diagonal / std::sqrt(static_cast<double>(n) * nodes_a_sample_);
   }
 
   /// Where to cut a cell, if at all: between the lower and the upper half. Where the density varies much, so
@@ -137,20 +137,18 @@ class Partition::Builder {
   // -- patches
 
   /// Boxes for the patches from `patch` on that cut k divides, inside `box`.
-  std::int32_t boxes(const Cuts& cuts, std::int32_t k, const Points& p, PatchNumber patch, const Region& box,
-                     double reach) {
+  std::int32_t boxes(const Cuts& cuts, std::int32_t k, PatchNumber patch, const Region& box, double reach) {
     if (k < 0) {
       partition_.regions_[patch] = box;
       partition_.regions_[patch].root = static_cast<std::int32_t>(partition_.cells_.size());
-      return cells_of_patch(p, patch, reach, false);
+      return cells_of_patch(cuts.of_patch()[static_cast<std::size_t>(patch)], patch, reach, false);
     }
     const Cuts::Cut& c = cuts.all()[k];
-    const Plane split = across(c.axis, c.height);
-    const double here = reach_of(Extent(p), p.size(), reach);
-    return cut(split, separate(split, p), p, [&](bool beyond, const Points& half) {
+    const double here = reach_of(c.diagonal, c.sample, reach);
+    return cut(across(c.axis, c.height), [&](bool beyond) {
       Region part = box;
       (beyond ? part.low : part.high)[c.axis] = c.height;
-      return boxes(cuts, c.child[beyond], half, beyond ? patch + c.below : patch, part, here);
+      return boxes(cuts, c.child[beyond], beyond ? patch + c.below : patch, part, here);
     });
   }
 
@@ -168,8 +166,8 @@ class Partition::Builder {
 
   /// Stripe k begins at a node of the sample, the first one behind the widest gap in longitude: there a
   /// section of the sphere begins.
-  void choose_borders() {
-    std::vector<Point> sorted(whole_.first, whole_.last);
+  void choose_borders(const Points& sample) {
+    std::vector<Point> sorted(sample.first, sample.last);
     std::sort(sorted.begin(), sorted.end(), [](const Point& a, const Point& b) { return turn(a) < turn(b); });
     if (sorted.empty()) sorted.push_back({1, 0, 0});
     const std::size_t n = sorted.size(), patches = partition_.regions_.size();
@@ -186,19 +184,19 @@ class Partition::Builder {
     if (first == last) return cells_of_patch(p, first, kEverything, true);
     const PatchNumber k = (first + last + 1) / 2;
     const Plane& border = partition_.borders_[k];
-    return cut(border, separate(border, p), p, [&](bool beyond, const Points& half) {
-      return beyond ? wedges(k, last, half) : wedges(first, k - 1, half);
+    Point* const middle = separate(border, p);
+    return cut(border, [&](bool beyond) {
+      return beyond ? wedges(k, last, {middle, p.last}) : wedges(first, k - 1, {p.first, middle});
     });
   }
 
   Partition& partition_;
-  const Points whole_;  ///< the sample
   const double nodes_a_sample_;
 };
 
-Partition::Partition(const Cuts& cuts, std::vector<Point> sample, std::size_t nodes)
-    : Partition(static_cast<int>(cuts.all().size()) + 1) {
-  Builder(*this, sample, nodes).bisect(cuts);
+Partition::Partition(const Cuts& cuts, std::size_t nodes)
+    : Partition(static_cast<int>(cuts.of_patch().size())) {
+  Builder(*this, cuts.sample_size(), nodes).bisect(cuts);
   levels_ = levels_of(0);
 }
 
@@ -207,10 +205,10 @@ Partition::Partition(int patches, Rule rule) : Partition(patches) { rule_ = std:
 Partition::Partition(PartitionKind kind, int patches, std::vector<Point> sample, std::size_t nodes)
     : Partition(patches) {
   if (kind == PartitionKind::bisection) {
-    *this = Partition(Cuts::of_sample(patches, sample), sample, nodes);
+    *this = Partition(Cuts::of_sample(patches, std::move(sample)), nodes);
     return;
   }
-  Builder(*this, sample, nodes).stripe();
+  Builder(*this, sample.size(), nodes).stripe({sample.data(), sample.data() + sample.size()});
   levels_ = levels_of(0);
 }
 

@@ -44,8 +44,8 @@ class Partition {
  public:
   /// Patches 0..patches-1 for `nodes` nodes of which `sample` is a sample: vectors of about length 1.
   Partition(PartitionKind kind, int patches, std::vector<Point> sample, std::size_t nodes);
-  /// Bisection by these cuts.
-  Partition(const Cuts& cuts, std::vector<Point> sample, std::size_t nodes);
+  /// Bisection by these cuts; sorts their sample.
+  Partition(const Cuts& cuts, std::size_t nodes);
 
   /// Patches of any shape with any margins, for tests.
   struct Rule {

@@ -57,7 +57,7 @@ Partition partition_over_ranks(PartitionKind kind, int ranks, const std::vector<
     const BlockArray<Point> of_rank = places_to_count(nodes_of(r), n, size, Places(Lengths::as_given, 0));
     counted.insert(counted.end(), of_rank.data(), of_rank.data() + of_rank.size());
   }
-  return Partition(Cuts::of_sample(ranks, points, counted), points, n);
+  return Partition(Cuts::of_sample(ranks, points, counted), n);
 }
 
 }  // namespace pstripack

@@ -40,15 +40,14 @@ template <class Int>
 Stars<Int> triangulate_places(const LocalNodes& nodes, const Corners& corners, const Places& places,
                               Communicator& ranks, const ParallelOptions& options, ParallelCost& cost,
                               std::unique_ptr<Homes>* homes) {
-  const auto phase = [&](ParallelCost::Phase kind, const char* name, const auto& body) {
+  const auto phase = [&](ParallelCost::Phase kind, const auto& body) {
     const PhaseTimer timer(&cost, kind, &ranks);
-    ranks.set_phase(name);
     return body();
   };
   const Division division =
-      phase(ParallelCost::divide, "divide", [&] { return divide(nodes, corners, places, ranks, options); });
+      phase(ParallelCost::divide, [&] { return divide(nodes, corners, places, ranks, options); });
   Delivery delivery =
-      phase(ParallelCost::divide, "divide", [&] { return deliver(nodes, division, ranks, options.threads); });
+      phase(ParallelCost::divide, [&] { return deliver(nodes, division, ranks, options.threads); });
   std::size_t own = 0;
   for (const PatchNodes& patch : delivery.of_patch) {
     own += patch.own;
@@ -57,10 +56,10 @@ Stars<Int> triangulate_places(const LocalNodes& nodes, const Corners& corners, c
   if (homes != nullptr)
     delivery.outcome.go_on([&] { *homes = std::make_unique<Homes>(division, options, own); });
 
-  Patches<Int> patches = phase(ParallelCost::triangulate, "triangulate", [&] {
+  Patches<Int> patches = phase(ParallelCost::triangulate, [&] {
     return triangulate_patches<Int>(delivery, division, ranks, options.threads);
   });
-  Certified<Int> certified = phase(ParallelCost::merge, "merge", [&] {
+  Certified<Int> certified = phase(ParallelCost::merge, [&] {
     return certify(std::move(patches), division, ranks, options, cost.rounds);
   });
   if (!certified.coincident.empty()) {
@@ -68,7 +67,7 @@ Stars<Int> triangulate_places(const LocalNodes& nodes, const Corners& corners, c
     none.coincident = std::move(certified.coincident);
     return none;
   }
-  return phase(ParallelCost::lists, "lists", [&] {
+  return phase(ParallelCost::lists, [&] {
     return return_rings(std::move(certified.patches), std::move(delivery.addresses), nodes, division, ranks,
                         options);
   });

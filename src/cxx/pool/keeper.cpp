@@ -170,8 +170,7 @@ class Keeper {
 
 }  // namespace
 
-Descriptor start_keeper(char** command, const std::string& pool, Launcher launcher, Descriptor& listener,
-                        const Watchdog& watchdog) {
+Descriptor start_keeper(char** command, const std::string& pool, Launcher launcher, Descriptor& listener) {
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) return {};
   Descriptor to_keeper(ends[0]), to_rank_0(ends[1]);
@@ -181,7 +180,6 @@ Descriptor start_keeper(char** command, const std::string& pool, Launcher launch
 
   to_keeper.reset();
   listener.reset();
-  watchdog.close_pipe();
   setpgid(0, 0);
   prctl(PR_SET_NAME, "pstripack-keep");
   sigset_t all, before;

@@ -8,7 +8,6 @@
 
 #include "base/descriptor.h"
 #include "pool/messages.h"
-#include "pool/watchdog.h"
 
 namespace pstripack {
 
@@ -27,9 +26,7 @@ struct Launcher {
 ///   nobody has told the model to end;
 ///   sends a ModelEnd to pstripack-run and to rank 0.
 /// Returns the socket to it, where a ModelEnd arrives unless the keeper is killed. None on failure, with
-/// errno set. To be called before MPI_Init. The keeper closes its copies of `listener` and of the watchdog's
-/// pipe.
-Descriptor start_keeper(char** command, const std::string& pool, Launcher launcher, Descriptor& listener,
-                        const Watchdog& watchdog);
+/// errno set. To be called before MPI_Init. The keeper closes its copy of `listener`.
+Descriptor start_keeper(char** command, const std::string& pool, Launcher launcher, Descriptor& listener);
 
 }  // namespace pstripack

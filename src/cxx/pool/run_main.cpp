@@ -255,58 +255,6 @@ void give_mpirun_its_own_input() {
   dup2(file.get(), STDIN_FILENO);
 }
 
-/// Forwards mpirun's stderr to ours. When a rank is lost, Hydra kills all others by SIGKILL, and the
-/// watchdogs report each as lost. Only the first of these lines is forwarded, which is nearly always the
-/// right one.
-class ErrorLines {
- public:
-  bool open() { return pipe2(ends_, O_CLOEXEC) == 0 && fcntl(ends_[0], F_SETFL, O_NONBLOCK) == 0; }
-  int from() const { return ends_[0]; }
-  void become_stderr() const { dup2(ends_[1], STDERR_FILENO); }
-  void leave_to_mpirun() { close(ends_[1]); }
-  /// True if a line has named the rank because of which the job ends.
-  bool has_named_rank() const { return has_named_rank_; }
-  /// True if Open MPI has refused to start more ranks than there are processors.
-  bool lack_of_slots() const { return lack_of_slots_; }
-
-  /// Forwards what has arrived so far; without `losses`, the ends of ranks are expected, and not reported.
-  /// False at the end of the stream.
-  bool pass_on(bool losses) {
-    char piece[4096];
-    ssize_t size;
-    while ((size = read(ends_[0], piece, sizeof piece)) > 0) {
-      text_.append(piece, static_cast<std::size_t>(size));
-      for (std::size_t end; (end = text_.find('\n')) != std::string::npos; text_.erase(0, end + 1))
-        pass_on_line(text_.substr(0, end + 1), losses);
-      // Hold back the beginning of a line only if the line may name a rank.
-      if (text_.compare(0, kRank.size(), kRank, 0, text_.size()) != 0) write_all(std::exchange(text_, {}));
-    }
-    return size < 0 && (errno == EAGAIN || errno == EINTR);
-  }
-
-  /// After the end of mpirun. Does not wait for the end of the stream, which other processes may have open.
-  void finish(bool losses) {
-    pass_on(losses);
-    write_all(text_);
-  }
-
- private:
-  void pass_on_line(const std::string& line, bool losses) {
-    const bool names_rank = line.compare(0, kRank.size(), kRank) == 0;
-    const bool is_known_loss =
-        names_rank && (has_named_rank_ || !losses) && line.find(" was lost ") != std::string::npos;
-    if (!is_known_loss) write_all(line);
-    has_named_rank_ = has_named_rank_ || names_rank;
-    lack_of_slots_ = lack_of_slots_ || line.find("not enough slots available") != std::string::npos;
-  }
-  static void write_all(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stderr); }
-
-  const std::string kRank = "pstripack: rank ";
-  int ends_[2] = {-1, -1};
-  std::string text_;
-  bool has_named_rank_ = false, lack_of_slots_ = false;
-};
-
 /// mpirun, a child process.
 class Mpirun {
  public:
@@ -375,15 +323,13 @@ Descriptor signals_as_file(sigset_t* before) {
 }
 
 /// In the child: runs mpirun. `signals`: those blocked before.
-[[noreturn]] void become_mpirun(std::vector<std::string> words, bool open_mpi, const sigset_t& signals,
-                                const ErrorLines& errors) {
+[[noreturn]] void become_mpirun(std::vector<std::string> words, bool open_mpi, const sigset_t& signals) {
   // What a terminal or timeout(1) sends to our group is for the model, not for mpirun.
   setpgid(0, 0);
   signal(SIGTTIN, SIG_DFL);
   signal(SIGPIPE, SIG_DFL);
   signal(SIGTTOU, SIG_IGN);
   sigprocmask(SIG_SETMASK, &signals, nullptr);
-  errors.become_stderr();
   if (!open_mpi || !stdin_can_be_read())
     dup2(Descriptor(open("/dev/null", O_RDONLY)).get(), STDIN_FILENO);
   else if (stdin_is_a_file())
@@ -397,45 +343,33 @@ Descriptor signals_as_file(sigset_t* before) {
 /// Watches mpirun and the keeper, and passes on signals, until both have ended.
 class Supervisor {
  public:
-  Supervisor(pid_t mpirun, ErrorLines& errors, bool open_mpi)
-      : mpirun_(mpirun), errors_(errors), model_gets_stdin_(!open_mpi) {}
+  Supervisor(pid_t mpirun, bool open_mpi) : mpirun_(mpirun), model_gets_stdin_(!open_mpi) {}
 
   void run(const Descriptor& signals, const Descriptor& listener, const Descriptor& environment,
            const pstripack::Greeting& greeting) {
-    bool errors_are_open = true;
     while (!mpirun_.has_ended() || keeper_) {
       pollfd events[] = {{signals.get(), POLLIN, 0},
                          {has_begun_ ? -1 : listener.get(), POLLIN, 0},
-                         {keeper_.get(), POLLIN, 0},
-                         {errors_are_open ? errors_.from() : -1, POLLIN, 0}};
-      if (poll(events, 4, mpirun_.tick()) < 0) continue;
+                         {keeper_.get(), POLLIN, 0}};
+      if (poll(events, 3, mpirun_.tick()) < 0) continue;
       if (events[1].revents != 0) greet(listener, environment, greeting);
       if (events[2].revents != 0) note_end_of_model();
       signalfd_siginfo arrived;
       if (events[0].revents != 0 && read(signals.get(), &arrived, sizeof arrived) > 0 &&
           arrived.ssi_signo != SIGCHLD)
         pass_on(static_cast<int>(arrived.ssi_signo), greeting);
-      if (events[3].revents != 0) errors_are_open = errors_.pass_on(told_to_end_ == 0);
-      if (errors_.has_named_rank()) mpirun_.end_in(std::chrono::seconds(5));
     }
-    errors_.finish(told_to_end_ == 0);
   }
 
   /// After run(): ends this process as the model ended, or says why the job did.
-  [[noreturn]] void end(int ranks) const {
+  [[noreturn]] void end() const {
     const int status = mpirun_.status();
     // If mpirun failed without being told to end, a rank was lost, whatever the status of the model is.
     if (has_ended_ && (status == 0 || told_to_end_ != 0)) end_like(model_.status);
     if (told_to_end_ != 0) end_like(told_to_end_);
-    if (errors_.has_named_rank()) end_like(status);
     if (WIFSIGNALED(status))
       std::fprintf(stderr, "pstripack-run: mpirun was ended by signal %d, and the model with it\n",
                    WTERMSIG(status));
-    else if (errors_.lack_of_slots())
-      std::fprintf(stderr,
-                   "pstripack-run: more ranks than processors: pstripack-run -n %d --oversubscribe -- "
-                   "COMMAND\n",
-                   ranks);
     else if (has_begun_)
       std::fprintf(stderr,
                    "pstripack-run: mpirun has ended the job with exit code %d: a machine is lost, or a rank, "
@@ -483,7 +417,6 @@ class Supervisor {
   }
 
   Mpirun mpirun_;
-  ErrorLines& errors_;
   const bool model_gets_stdin_;  ///< whatever it is
   Descriptor keeper_;
   pstripack::ModelEnd model_;
@@ -513,17 +446,14 @@ int main(int, char** argv) {
   sigset_t before;
   const Descriptor signals = signals_as_file(&before);
   put_pipe_before_terminal();
-  ErrorLines errors;
-  if (!errors.open()) fail(std::string("pipe: ") + std::strerror(errno), 1);
   const pid_t me = getpid(), process = fork();
   if (process < 0) fail(std::string("fork: ") + std::strerror(errno), 1);
   if (process == 0) {
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != me) _exit(128 + SIGTERM);
-    become_mpirun(std::move(words), open_mpi, before, errors);
+    become_mpirun(std::move(words), open_mpi, before);
   }
-  errors.leave_to_mpirun();
-  Supervisor supervisor(process, errors, open_mpi);
+  Supervisor supervisor(process, open_mpi);
   supervisor.run(signals, listener, environment, greeting);
-  supervisor.end(arguments.ranks);
+  supervisor.end();
 }

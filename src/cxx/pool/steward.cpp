@@ -69,7 +69,7 @@ std::vector<Descriptor> connect_ranks(MpiCommunicator& ranks) {
 
 }  // namespace
 
-Steward::Steward(char** command, const Watchdog& watchdog) {
+Steward::Steward(char** command) {
   Launcher launcher;
   if (const char* const name = environment_variable("PSTRIPACK_POOL_LAUNCHER")) {
     launcher.socket = connect_to(name);
@@ -81,7 +81,7 @@ Steward::Steward(char** command, const Watchdog& watchdog) {
   std::string name;
   listener_ = listen_under_new_name(&name);
   if (!listener_) std::perror("pstripack: pool: no socket, trmesh runs on threads");
-  keeper_ = start_keeper(command, name, std::move(launcher), listener_, watchdog);
+  keeper_ = start_keeper(command, name, std::move(launcher), listener_);
   if (keeper_) return;
   std::perror("pstripack-worker: no process for the model");
   std::exit(126);
@@ -96,7 +96,6 @@ int Steward::serve(MpiCommunicator& ranks) {
   sockets_ = connect_ranks(ranks);
   std::vector<pollfd> events;
   for (;;) {
-    ranks.set_phase("its wait for a call");
     events = {{keeper_.get(), POLLIN, 0}, {listener_.get(), POLLIN, 0}};
     for (const Client& client : clients_) events.push_back({client.socket.get(), POLLIN, 0});
     if (poll(events.data(), events.size(), -1) < 0) continue;
@@ -139,7 +138,6 @@ bool Steward::serve(Client& client, MpiCommunicator& ranks) {
       request.n < 3 || client.area.size() < AreaLayout(request.n, request.real_bytes).size())
     return send_packet(client.socket, &reply, sizeof reply);
 
-  ranks.set_phase("the start of a call");
   Order order{request.real_bytes, request.n, client.area_number, client.area.file() ? 1 : 0};
   ranks.broadcast(&order, sizeof order, 0);
   if (order.sends_area != 0) send_to_workers(client.area.file());
@@ -152,7 +150,6 @@ bool Steward::serve(Client& client, MpiCommunicator& ranks) {
   } catch (const AgreedFailure& failure) {
     result = {failure.code};
   }
-  ranks.set_phase("the answer to a call");
   reply.done = 1;
   reply.ranks = ranks.size();
   reply.ier = result.ier;
@@ -166,7 +163,6 @@ void serve_as_worker(MpiCommunicator& ranks) {
   SharedArea area;
   std::int64_t area_number = 0;
   for (;;) {
-    ranks.set_phase("its wait for a call");
     Order order;
     ranks.broadcast(&order, sizeof order, 0);
     if (order.real_bytes == 0) return;

@@ -20,7 +20,6 @@
 #include "mpi/collective_trmesh.h"
 #include "mpi/world.h"
 #include "pool/channel.h"
-#include "pool/watchdog.h"
 
 namespace pstripack {
 
@@ -29,7 +28,7 @@ class Steward {
  public:
   /// Starts the model with this command line. To be called before MPI_Init, which takes long and for which
   /// the model need not wait.
-  Steward(char** command, const Watchdog& watchdog);
+  explicit Steward(char** command);
   Steward(const Steward&) = delete;
   Steward& operator=(const Steward&) = delete;
 

@@ -7,25 +7,19 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <thread>
 
 #include "base/environment.h"
 #include "pool/steward.h"
-#include "pool/watchdog.h"
 
 namespace {
 
-pstripack::Watchdog* watchdog = nullptr;
 pstripack::Steward* steward = nullptr;  ///< on rank 0
 
-/// Handles SIGTERM from mpirun, which ends a job in this way; it is not a loss to be reported.
-void end_on_request(int signal, siginfo_t* sender, void*) {
-  if (sender->si_pid != watchdog->launcher()) {
-    ::signal(signal, SIG_DFL);
-    raise(signal);
-    return;
-  }
-  watchdog->dismiss();
-  _exit(128 + signal);
+/// Ends this process if the launcher (mpirun or its daemon) is gone, which may have been killed.
+void end_with(pid_t launcher) {
+  while (getppid() == launcher) sleep(1);
+  kill(getpid(), SIGKILL);
 }
 
 void pass_on(int signal) {
@@ -48,15 +42,8 @@ int main(int argc, char** argv) {
                stderr);
     return 2;
   }
-  static pstripack::Watchdog the_watchdog(rank);
-  watchdog = &the_watchdog;
-  static pstripack::Steward* const the_steward =
-      rank == 0 ? new pstripack::Steward(argv + 1, the_watchdog) : nullptr;
-  steward = the_steward;
-  struct sigaction action {};
-  action.sa_sigaction = end_on_request;
-  action.sa_flags = SA_SIGINFO;
-  sigaction(SIGTERM, &action, nullptr);
+  if (rank == 0) steward = new pstripack::Steward(argv + 1);
+  std::thread(end_with, getppid()).detach();
   // mpirun forwards these signals to all processes; they are meant for the model.
   signal(SIGUSR1, pass_on);
   signal(SIGUSR2, pass_on);
@@ -66,18 +53,14 @@ int main(int argc, char** argv) {
     const pstripack::World world;
     try {
       pstripack::MpiCommunicator ranks = world.communicator();
-      ranks.show_phase_in(watchdog->phase());
       if (rank == 0)
         code = steward->serve(ranks);
       else
         pstripack::serve_as_worker(ranks);
-      ranks.set_phase("the end of MPI");
     } catch (const std::exception& error) {
       std::fprintf(stderr, "pstripack: rank %d: %s\n", rank, error.what());
-      watchdog->dismiss();
       world.abort();
     }
   }
-  watchdog->dismiss();
   return code;
 }

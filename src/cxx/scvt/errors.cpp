@@ -39,24 +39,28 @@ DensityOutOfRange::DensityOutOfRange(const char* result, double largest)
                      ", by a constant") {}
 
 CoincidentGenerators::CoincidentGenerators(std::int64_t f, std::int64_t s)
-    : BadGenerators("generators " + std::to_string(f) + " and " + std::to_string(s) +
-                    " coincide: remove one of them"),
+    : BadGenerators(
+          "generators " + std::to_string(f) + " and " + std::to_string(s) + " coincide: remove one of them",
+          PSTRIPACK_COINCIDENT),
       first(f),
       second(s) {}
 
 GeneratorsTooNear::GeneratorsTooNear(std::int64_t f, std::int64_t s)
     : BadGenerators("the cell of generator " + std::to_string(f) +
-                    " is too small: move it away from generator " + std::to_string(s) +
-                    ", or remove one of them"),
+                        " is too small: move it away from generator " + std::to_string(s) +
+                        ", or remove one of them",
+                    PSTRIPACK_COINCIDENT),
       first(f),
       second(s) {}
 
 BadNumber::BadNumber(std::int64_t number)
-    : BadGenerators("the generators' number " + std::to_string(number) +
-                    (number < 1 ? " is below 1" : " occurs twice")) {}
+    : BadGenerators(
+          "the generators' number " + std::to_string(number) + (number < 1 ? " is below 1" : " occurs twice"),
+          PSTRIPACK_BAD_NUMBER) {}
 
 GeneratorsInHemisphere::GeneratorsInHemisphere()
     : BadGenerators(
-          "the generators lie in one hemisphere: a tessellation needs generators all around the sphere") {}
+          "the generators lie in one hemisphere: a tessellation needs generators all around the sphere",
+          PSTRIPACK_HEMISPHERE) {}
 
 }  // namespace pstripack::scvt

@@ -1,16 +1,19 @@
 #pragma once
-// Why generators have no centroidal tessellation.
+// Why generators have no centroidal tessellation. `code` is that of the C interface.
 
 #include <cstdint>
 #include <stdexcept>
 #include <string>
 
+#include "capi/pstripack.h"
 #include "geometry/point.h"
 
 namespace pstripack::scvt {
 
 struct NoTessellation : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  explicit NoTessellation(const std::string& why, std::int32_t c = PSTRIPACK_BAD_DENSITY)
+      : std::runtime_error(why), code(c) {}
+  std::int32_t code;
 };
 
 /// A value that is not positive and finite, or too far from another one; of a density or of a width.
@@ -26,7 +29,8 @@ struct DensityOutOfRange : NoTessellation {
 };
 
 struct BadGenerators : NoTessellation {
-  using NoTessellation::NoTessellation;
+  explicit BadGenerators(const std::string& why, std::int32_t c = PSTRIPACK_BAD_COORDINATE)
+      : NoTessellation(why, c) {}
 };
 /// Two generators coincide; numbers from 1.
 struct CoincidentGenerators : BadGenerators {

@@ -7,7 +7,6 @@
 #include <queue>
 #include <utility>
 
-#include "scvt/errors.h"
 #include "scvt/evaluator.h"
 #include "scvt/first_generators.h"
 #include "scvt/vectors.h"
@@ -272,11 +271,9 @@ class Front {
       apexes_.push_back(normalized(plus(middle, scaled(height, across))));
       apexes_.push_back(normalized(minus(middle, scaled(height, across))));
     }
-    values_.resize(apexes_.size());
-    density_.at(apexes_.size(), apexes_.data(), values_.data());
+    const std::vector<double> values = values_at(apexes_, density_);
     for (std::size_t i = 0; i < apexes_.size(); ++i) {
-      if (!(values_[i] > 0 && std::isfinite(values_[i]))) throw BadDensity(apexes_[i], values_[i]);
-      const Node apex{apexes_[i], size_of(values_[i])};
+      const Node apex{apexes_[i], size_of(values[i])};
       if (!is_free(apex)) continue;
       const auto [face, cosine] = nearest(icosahedron_.centre, apex.p);
       const std::size_t queue = cosine > kInCircle ? face : 20 + nearest(icosahedron_.corner, apex.p).first;
@@ -293,7 +290,6 @@ class Front {
   std::uint64_t candidates_ = 0;
   std::vector<Node> near_;  ///< nodes found by look_around()
   std::vector<Point> apexes_;
-  std::vector<double> values_;
 };
 
 /// Places where a front may begin: the face centres, then sampled places, those of highest density first.

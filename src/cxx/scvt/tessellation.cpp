@@ -14,10 +14,6 @@
 namespace pstripack::scvt {
 namespace {
 
-void check_count(std::size_t n) {
-  if (n < 4) throw BadGenerators("a tessellation needs at least 4 generators, here are " + std::to_string(n));
-}
-
 /// A row per generator: its position, then step and change of each pair.
 Rows rows_of(const Tessellation& t) {
   Rows rows{3 + 6 * t.state.pairs.size(), {}, t.numbers};
@@ -69,7 +65,6 @@ Tessellation begun_with(Spread&& generators) {
 }  // namespace
 
 Tessellation first_generators(Evaluator& evaluator, std::size_t n, const RunOptions& options) {
-  check_count(n);
   Options of_levels = options;
   of_levels.well_centred = false;
   const std::vector<std::size_t> sizes = options.levels ? level_sizes(n) : std::vector<std::size_t>{n};
@@ -152,7 +147,6 @@ Tessellation run(std::size_t n, const Density& density, const RunOptions& option
 }
 
 Tessellation run(std::vector<Point> generators, const Density& density, const RunOptions& options) {
-  check_count(generators.size());
   LocalEvaluator evaluator(density);
   Tessellation t;
   t.state.generators = unit_vectors(std::move(generators));
