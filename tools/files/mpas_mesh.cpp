@@ -235,13 +235,31 @@ double arc(const Point& a, const Point& b) {
   return a == b ? 0 : arc_length(pstripack::direction_of(a), pstripack::direction_of(b));
 }
 
-/// Sets areas, shares, outflows and distances.
+/// Kites of a vertex share the points of its edges, and so do those of a cell: they add up to the triangle
+/// and to the cell up to rounding, also where the triangle is obtuse and a kite or a part of it is negative.
+std::array<double, 3> kites_of(const MpasMesh& mesh, std::size_t vertex) {
+  const Point& v = mesh.vertices[vertex];
+  std::array<Point, 3> point;
+  for (std::size_t j = 0; j < 3; ++j)
+    if (const Index e = mesh.edges_on_vertex[vertex][j]; e != kNone) point[j] = mesh.edge_point(at(e));
+  std::array<double, 3> areas{};
+  for (std::size_t j = 0; j < 3; ++j)
+    if (const Index cell = mesh.cells_on_vertex[vertex][j]; cell != kNone)
+      areas[j] = triangle_area(v, point[j], mesh.cells[at(cell)]) +
+                 triangle_area(v, mesh.cells[at(cell)], point[(j + 1) % 3]);
+  return areas;
+}
+
+/// Sets areas, kites, shares, outflows, widths and distances.
 void measure(MpasMesh& mesh) {
   mesh.distances.resize(mesh.cells_on_edge.size());
+  mesh.widths.resize(mesh.cells_on_edge.size());
   for_each(mesh.distances.size(), [&](std::size_t e) {
     const auto [c, d] = mesh.cells_on_edge[e];
+    const auto [v, w] = mesh.vertices_on_edge[e];
     const Point& cell = mesh.cells[at(c)];
     mesh.distances[e] = d == kNone ? 2 * arc(cell, mesh.edge_point(e)) : arc(cell, mesh.cells[at(d)]);
+    mesh.widths[e] = arc(mesh.vertices[at(v)], mesh.vertices[at(w)]);
   });
   mesh.areas.resize(mesh.cells.size());
   mesh.outflows.resize(mesh.edges_on_cell.size());
@@ -253,23 +271,23 @@ void measure(MpasMesh& mesh) {
       };
       area += triangle_area(mesh.cells[c], vertex(j), vertex(j + 1));
       const std::size_t row = mesh.row(c, j + 1);  // of the edge between the two
-      const bool points_outwards =
-          mesh.cells_on_edge[at(mesh.edges_on_cell[row])][0] == static_cast<Index>(c);
-      // From the same end in both cells, so that both have the same bits.
-      mesh.outflows[row] = points_outwards ? arc(vertex(j), vertex(j + 1)) : -arc(vertex(j + 1), vertex(j));
+      const std::size_t edge = at(mesh.edges_on_cell[row]);
+      const bool points_outwards = mesh.cells_on_edge[edge][0] == static_cast<Index>(c);
+      mesh.outflows[row] = points_outwards ? mesh.widths[edge] : -mesh.widths[edge];
     }
     mesh.areas[c] = area;
   });
   mesh.shares.resize(mesh.vertices_on_cell.size());
+  mesh.kites.resize(mesh.vertices.size());
   for_each(mesh.vertices.size(), [&](std::size_t v) {
-    const std::array<double, 3> kites = mesh.kites(v);
+    mesh.kites[v] = kites_of(mesh, v);
     for (std::size_t j = 0; j < 3; ++j) {
       const Index cell = mesh.cells_on_vertex[v][j];
       if (cell == kNone) continue;
       // Seen from the cell, the vertex comes after edge j+1 and before edge j.
       const Index before = mesh.edges_on_vertex[v][(j + 1) % 3];
       const std::size_t row = mesh.row(at(cell), mesh.place(at(before), at(cell)));
-      mesh.shares[row] = kites[j] / mesh.areas[at(cell)];
+      mesh.shares[row] = mesh.kites[v][j] / mesh.areas[at(cell)];
     }
   });
 }
@@ -299,29 +317,8 @@ Point MpasMesh::edge_point(std::size_t edge) const {
   return normalised({a.x - part * normal.x, a.y - part * normal.y, a.z - part * normal.z});
 }
 
-double MpasMesh::width(std::size_t edge) const {
-  const auto cell = at(cells_on_edge[edge][0]);
-  return outflows[row(cell, place(edge, cell))];
-}
-
-/// Kites of a vertex share the points of its edges, and so do those of a cell: they add up to the triangle
-/// and to the cell up to rounding, also where the triangle is obtuse and a kite or a part of it is negative.
-std::array<double, 3> MpasMesh::kites(std::size_t vertex) const {
-  const Point& v = vertices[vertex];
-  std::array<Point, 3> point;
-  for (std::size_t j = 0; j < 3; ++j)
-    if (const Index e = edges_on_vertex[vertex][j]; e != kNone) point[j] = edge_point(at(e));
-  std::array<double, 3> areas{};
-  for (std::size_t j = 0; j < 3; ++j)
-    if (const Index cell = cells_on_vertex[vertex][j]; cell != kNone)
-      areas[j] = files::triangle_area(v, point[j], cells[at(cell)]) +
-                 files::triangle_area(v, cells[at(cell)], point[(j + 1) % 3]);
-  return areas;
-}
-
-double MpasMesh::angle(std::size_t edge) const {
+double MpasMesh::angle(std::size_t edge, const Point& e) const {
   const auto [c, d] = cells_on_edge[edge];
-  const Point e = edge_point(edge);
   // Both cells are equally far from e, so d - c is tangent there.
   const Point n = minus(d == kNone ? e : cells[at(d)], cells[at(c)]);
   const double across = std::hypot(e.x, e.y);  // 0: a pole, whose longitude is 0
@@ -331,7 +328,7 @@ double MpasMesh::angle(std::size_t edge) const {
 
 double MpasMesh::triangle_area(std::size_t vertex) const {
   const auto [a, b, c] = cells_on_vertex[vertex];
-  if (c == kNone) return kites(vertex)[0] + kites(vertex)[1];
+  if (c == kNone) return kites[vertex][0] + kites[vertex][1];
   return pstripack::triangle_area(pstripack::direction_of(cells[at(a)]),
                                   pstripack::direction_of(cells[at(b)]),
                                   pstripack::direction_of(cells[at(c)]));

@@ -53,6 +53,9 @@ struct MpasMesh {
   std::vector<double> outflows;   ///< length of the edge, dvEdge; negative if n points into the cell
   std::vector<double> areas;      ///< of the cells
   std::vector<double> distances;  ///< of each edge: from cell to cell, dcEdge
+  std::vector<double> widths;     ///< of each edge: from vertex to vertex, dvEdge
+  /// Of each vertex: those that its triangle shares with its cells, 0 if there is no cell.
+  std::vector<std::array<double, 3>> kites;
 
   std::size_t sides(std::size_t cell) const {
     return static_cast<std::size_t>(begin[cell + 1] - begin[cell]);
@@ -77,11 +80,10 @@ struct MpasMesh {
   bool is_at_boundary(std::size_t vertex) const { return cells_on_vertex[vertex][2] == kNone; }
 
   Point edge_point(std::size_t edge) const;
-  double width(std::size_t edge) const;  ///< from vertex to vertex, dvEdge
-  double angle(std::size_t edge) const;  ///< of n, from east towards north
+  /// The angle of n, from east towards north, at the edge's point.
+  double angle(std::size_t edge, const Point& e) const;
   double triangle_area(std::size_t vertex) const;
   pstripack::Angles angles(std::size_t vertex) const;  ///< of the triangle, which must be whole
-  std::array<double, 3> kites(std::size_t vertex) const;
 
   /// The edges whose normal velocities give the tangential one of an edge: those of cell 1 counterclockwise
   /// from the edge on, then those of cell 2. Calls take(e', weight).

@@ -184,10 +184,11 @@ void write(const OutputFile& file, const MpasMesh& mesh, const MpasValues& value
   // Of an edge.
   out.rows<double>({"latEdge", "lonEdge", "xEdge", "yEdge", "zEdge", "angleEdge", "dcEdge", "dvEdge"},
                    {edges}, {}, [&](std::size_t e, double* value) {
-                     double* next = put_place(mesh.edge_point(e), radius, value);
-                     *next++ = mesh.angle(e);
+                     const Point point = mesh.edge_point(e);
+                     double* next = put_place(point, radius, value);
+                     *next++ = mesh.angle(e, point);
                      *next++ = radius * mesh.distances[e];
-                     *next++ = radius * mesh.width(e);
+                     *next++ = radius * mesh.widths[e];
                    });
   out.rows<Index>({"indexToEdgeID", "nEdgesOnEdge"}, {edges}, {}, [&](std::size_t e, Index* value) {
     value[0] = static_cast<Index>(e + 1);
@@ -208,7 +209,8 @@ void write(const OutputFile& file, const MpasMesh& mesh, const MpasValues& value
     mesh.for_each_around(e, [&](Index, double weight) { *value++ = weight; });
   });
 
-  // Of a vertex.
+  // Of a vertex. The angles are computed once: for the doubles, which are written first.
+  std::vector<char> is_obtuse(mesh.vertices.size());
   out.rows<double>({"latVertex", "lonVertex", "xVertex", "yVertex", "zVertex", "areaTriangle",
                     "triangleQuality", "triangleAngleQuality"},
                    {vertices}, {}, [&](std::size_t v, double* value) {
@@ -220,17 +222,18 @@ void write(const OutputFile& file, const MpasMesh& mesh, const MpasValues& value
                      if (mesh.is_at_boundary(v)) return;
                      const pstripack::Angles angles = mesh.angles(v);
                      *next = evenness(3, [&](std::size_t j) { return angles.at[j]; });
+                     is_obtuse[v] = !angles.are_acute;
                    });
   out.rows<Index>({"indexToVertexID", "boundaryVertex", "obtuseTriangle"}, {vertices}, {},
                   [&](std::size_t v, Index* value) {
                     value[0] = static_cast<Index>(v + 1);
                     value[1] = mesh.is_at_boundary(v);
-                    value[2] = !mesh.is_at_boundary(v) && !mesh.angles(v).are_acute;
+                    value[2] = is_obtuse[v];
                   });
   indices("cellsOnVertex", vertices, three, mesh.cells_on_vertex);
   indices("edgesOnVertex", vertices, three, mesh.edges_on_vertex);
   out.rows<double>({"kiteAreasOnVertex"}, {vertices, three}, {}, [&](std::size_t v, double* value) {
-    for (const double area : mesh.kites(v)) *value++ = square * area;
+    for (const double area : mesh.kites[v]) *value++ = square * area;
   });
 
   // In a limited area: the least number of the cells.

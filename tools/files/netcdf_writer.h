@@ -37,7 +37,8 @@ class NetcdfWriter {
     if (is_begun_) {
       check(nc_open(file.path().c_str(), NC_WRITE, &id_));
     } else {
-      check(nc_create(file.path().c_str(), NC_CLOBBER | kind, &id_));
+      std::size_t buffer = std::size_t{1} << 20;  // of classic files; NetCDF's own of some kB takes longer
+      check(nc__create(file.path().c_str(), NC_CLOBBER | kind, 0, &buffer, &id_));
       check(nc_set_fill(id_, NC_NOFILL, nullptr));
     }
   }

@@ -313,9 +313,6 @@ void choose_density(Options& options, const files::Notes& notes) {
     choose_n(options, methods::cells_of_width(options.width, options.radius / 1000));
   }
   if (const double cells = cells_of_quasi_uniform(options.width_text); cells > 0) {
-    if (!options.region.empty() || !options.width_region.empty())
-      throw CLI::ValidationError(
-          "--width", options.width_text + " covers the sphere with one width: say 60km or the like");
     options.density = "constant";
     options.width_text.clear();
     if (options.first == First::by_number && options.start.file.empty()) options.first = First::levels;
@@ -778,6 +775,12 @@ void scvt(Options& options) {
   if (!options.region.empty() && options.start.file.empty() && options.width_text.empty() &&
       options.width_file.empty())
     throw CLI::ValidationError("--region", "say also the widths there: --width or --width-file");
+  const std::string& width = options.width_text;
+  const bool is_name = !width.empty() && options.width == 0 && !methods::WidthFormula::is_one(width);
+  if (is_name && !options.width_region.empty())
+    throw CLI::ValidationError("--width-region", "not with " + width + ": say a width, as in 60km");
+  if (cells_of_quasi_uniform(width) > 0 && !options.region.empty())
+    throw CLI::ValidationError("--region", "not with " + width + ": say a width, as in 60km");
   options.output.choose();
   options.well_centred = options.well_centred || options.output.format == files::Format::mpas;
   options.output.radius = options.radius;

@@ -1103,6 +1103,8 @@ def test_scvt_command_lines_that_are_refused():
             "10 --first middle": "--first: 'middle' is none of front, levels, random",
             "--width band:1,2,3,4": "width 'band:1,2,3,4': expected five numbers: INNER,OUTER,RADIUS,TRANSITION,LAT",
             "--width-region region.json 9": "--width-region: say also --width, that of the cells elsewhere",
+            "--width ec60to30 --width-region region.json": "--width-region: not with ec60to30: say a width, as in 60km",
+            "--width qu60 --region circle:500,0,0": "--region: not with qu60: say a width, as in 60km",
             "--width 10km --region 0,0.7,0,0.7": "'0,0.7,0,0.7': these may be radians",
             "100 --region circle:500,0,0": "--region: say also the widths there",
             **{f"--width={width}": f"'{width}' is no width: expected, say, 60km"

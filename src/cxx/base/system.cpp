@@ -144,12 +144,13 @@ std::size_t memory_limit() {
 }
 
 std::size_t available_memory() {
-  const std::size_t of_machine = number_in({"", "/proc", "meminfo"}, "MemAvailable:"),
-                    limit = limit_of_control_groups(),
-                    own = number_in({"", "/proc/self", "status"}, "VmRSS:");  // both in kB
+  const std::size_t limit = limit_of_control_groups();
+  const std::size_t of_machine = number_in({"", "/proc", "meminfo"}, "MemAvailable:");  // in kB
+  const std::size_t own = number_in({"", "/proc/self", "statm"}, " ");  // the second number: pages
+  const long page = sysconf(_SC_PAGESIZE);
   if (of_machine == SIZE_MAX) return SIZE_MAX;
-  return std::min(1024 * of_machine,
-                  limit == SIZE_MAX || own == SIZE_MAX ? SIZE_MAX : limit - std::min(limit, 1024 * own));
+  if (limit == SIZE_MAX || own == SIZE_MAX || page <= 0) return 1024 * of_machine;
+  return std::min(1024 * of_machine, limit - std::min(limit, static_cast<std::size_t>(page) * own));
 }
 
 ProcessorSet usable_processors() {
