@@ -23,27 +23,27 @@ std::vector<Corner> LimitedArea::inside(double parallel) const {
   std::vector<Corner> pairs;
   for (const MapRegion& polygon : polygons)
     for (const Corner& pair : polygon.inside(parallel)) pairs.push_back(pair);
-  if (!polygons.empty()) return pairs;
-  // |p - centre| on the parallel: cos radius = sin sin + cos cos cos(difference of longitudes)
-  const double rest = std::cos(radius) - std::sin(parallel * kDegree) * std::sin(lat * kDegree),
-               most = std::cos(parallel * kDegree) * std::cos(lat * kDegree);
-  if (rest <= -most) return {{lon - 180, lon + 180}};
-  if (rest >= most) return {};
-  const double half = std::acos(rest / most) / kDegree;
-  return {{lon - half, lon + half}};
+  return pairs;
 }
 
 bool LimitedArea::contains(const Point& p) const {
-  const LonLat place({p}, true);
-  for (const auto& [west, east] : inside(place.lat[0]))
-    if (west + std::fmod(std::fmod(place.lon[0] - west, 360) + 360, 360) <= east) return true;
-  return false;
+  return std::any_of(polygons.begin(), polygons.end(),
+                     [&](const MapRegion& polygon) { return polygon.contains(p); });
 }
 
 std::vector<std::vector<Point>> LimitedArea::boundary() const {
   constexpr double kStep = 0.1;  // degrees. An arc leaves a line on the map by at most step^2 / 16.
   std::vector<std::vector<Point>> lines;
-  for (const MapRegion& polygon : polygons)
+  for (const MapRegion& polygon : polygons) {
+    for (const std::vector<Point>& corners : polygon.corners) {
+      std::vector<Corner> on_map;
+      for (std::size_t i = 0; i < corners.size(); ++i)
+        add_arc(corners[i], corners[(i + 1) % corners.size()], on_map);
+      std::vector<Point>& line = lines.emplace_back();
+      for (const auto& [lon, lat] : on_map) line.push_back(point_sets::from_degrees(lon, lat));
+      line.push_back(line.front());
+    }
+    if (!polygon.corners.empty()) continue;
     for (const auto& ring : polygon.rings) {
       std::vector<Point>& line = lines.emplace_back();
       for (std::size_t i = 1; i < ring.size(); ++i) {
@@ -55,55 +55,55 @@ std::vector<std::vector<Point>> LimitedArea::boundary() const {
       }
       line.push_back(line.front());
     }
-  if (!polygons.empty()) return lines;
-  const double turned = lon * kDegree, up = lat * kDegree;
-  const Point centre = point_sets::from_degrees(lon, lat), east{-std::sin(turned), std::cos(turned), 0},
-              north{-std::sin(up) * std::cos(turned), -std::sin(up) * std::sin(turned), std::cos(up)};
-  constexpr int kSteps = 3600;
-  std::vector<Point>& line = lines.emplace_back();
-  for (int k = 0; k < kSteps; ++k) {
-    const double angle = 2 * kPi * k / kSteps, c = std::cos(radius), e = std::sin(radius) * std::cos(angle),
-                 n = std::sin(radius) * std::sin(angle);
-    line.push_back({c * centre.x + e * east.x + n * north.x, c * centre.y + e * east.y + n * north.y,
-                    c * centre.z + e * east.z + n * north.z});
   }
-  line.push_back(line.front());
   return lines;
 }
 
 std::vector<Region> LimitedArea::boxes() const {
   std::vector<Region> boxes;
   for (const MapRegion& polygon : polygons) {
-    Region& box = boxes.emplace_back(Region{540, -180, 90, -90});
-    for (const auto& [x, y] : polygon.rings[0])
-      box = {std::min(box.west, x), std::max(box.east, x), std::min(box.south, y), std::max(box.north, y)};
+    Region& box = boxes.emplace_back(Region{INFINITY, -INFINITY, 90, -90});
+    for (const auto& ring : polygon.rings)
+      for (const auto& [x, y] : ring)
+        box = {std::min(box.west, x), std::max(box.east, x), std::min(box.south, y), std::max(box.north, y)};
   }
-  if (!polygons.empty()) return boxes;
-  const double south = lat - radius / kDegree, north = lat + radius / kDegree;
-  const bool has_pole = south <= -90 || north >= 90;
-  const double half =
-      has_pole ? 180 : std::asin(std::min(1.0, std::sin(radius) / std::cos(lat * kDegree))) / kDegree;
-  return {{lon - half, lon + half, std::max(south, -90.0), std::min(north, 90.0)}};
+  return boxes;
 }
 
-LimitedArea box_area(std::string name, const Region& box) {
+namespace {
+
+LimitedArea area_of(std::string name, std::vector<MapRegion> polygons, bool great_circles) {
+  LimitedArea area{std::move(name), std::move(polygons), great_circles};
+  try {
+    for (MapRegion& polygon : area.polygons)
+      if (great_circles && polygon.corners.empty()) follow_great_circles(polygon);
+  } catch (const std::runtime_error& e) {
+    throw std::runtime_error(area.name + ": " + e.what());
+  }
+  return area;
+}
+
+}  // namespace
+
+LimitedArea box_area(std::string name, const Region& box, bool great_circles) {
   const Corner first{box.west, box.south}, second{box.east, box.south}, third{box.east, box.north},
       fourth{box.west, box.north};
-  return {std::move(name), {{1, "", {{first, second, third, fourth, first}}}}};
+  return area_of(std::move(name), {{1, "", {{first, second, third, fourth, first}}}}, great_circles);
 }
 
-LimitedArea polygon_area(const std::string& file, bool are_degrees) {
-  LimitedArea area{file, read_polygons(file)};
+LimitedArea circle_area(std::string name, double lon, double lat, double radius, bool great_circles) {
+  return area_of(std::move(name), {ellipse_region(lon, lat, radius, radius, 0, great_circles ? 100 : 3600)},
+                 great_circles);
+}
+
+LimitedArea pts_area(const std::string& file, double radius) {
+  return area_of(file, read_pts(file, radius), true);
+}
+
+LimitedArea polygon_area(const std::string& file, bool are_degrees, bool great_circles) {
+  std::vector<MapRegion> polygons = read_polygons(file);
   bool may_be_radians = !are_degrees;
-  for (const MapRegion& polygon : area.polygons) {
-    const std::string name = fmt::format("{}: feature {}", file, polygon.feature);
-    if (polygon.rings.size() > 1) {
-      const auto [lon, lat] = polygon.rings[1][0];
-      throw std::runtime_error(fmt::format(
-          "{}: a hole, at lon {:g} lat {:g}: a limited area has one boundary: leave out all rings but the "
-          "first",
-          name, lon, lat));
-    }
+  for (const MapRegion& polygon : polygons) {
     try {
       expect_no_crossing(polygon);
     } catch (const NoMesh& e) {
@@ -117,7 +117,7 @@ LimitedArea polygon_area(const std::string& file, bool are_degrees) {
         "{}: all longitudes are within 2 pi and all latitudes within pi/2: GeoJSON is in degrees; "
         "if these are degrees, say --units degrees",
         file));
-  return area;
+  return area_of(file, std::move(polygons), great_circles);
 }
 
 // ---- layers -----------------------------------------------------------------------------------------------
@@ -131,9 +131,22 @@ class Layers {
 
   std::vector<std::int32_t> run() {
     std::size_t now = 0;
-    for (const std::vector<Point>& line : area_.boundary()) {
-      now = walk(now, cells_[now], line[0], false);
-      for (std::size_t k = 1; k < line.size(); ++k) now = walk(now, line[k - 1], line[k], true);
+    const auto go_to = [&](const Point& p) { now = walk(now, cells_[now], p, false); };
+    if (area_.has_chains) {
+      for (const MapRegion& polygon : area_.polygons)
+        for (const std::vector<Point>& line : polygon.corners) {
+          go_to(line.back());
+          for (const Point& corner : line) {
+            const std::size_t before = now;
+            go_to(corner);
+            add_chain(before, now);
+          }
+        }
+    } else {
+      for (const std::vector<Point>& line : area_.boundary()) {
+        go_to(line[0]);
+        for (std::size_t k = 1; k < line.size(); ++k) now = walk(now, line[k - 1], line[k], true);
+      }
     }
     fill();
     check_cells(now);
@@ -143,7 +156,7 @@ class Layers {
   }
 
  private:
-  static constexpr std::int32_t kUnknown = -2;
+  static constexpr std::int32_t kUnknown = -2, kInside = -3;
 
   [[noreturn]] void fail(const std::string& what) const {
     throw std::runtime_error(area_.name + ": " + what);
@@ -178,6 +191,24 @@ class Layers {
     }
   }
 
+  /// Makes a chain from cell to cell part of the region: the next is, of the neighbours nearer to the end,
+  /// the one nearest to the great circle through both ends.
+  void add_chain(std::size_t cell, std::size_t end) {
+    const Point normal = cross(cells_[cell], minus(cells_[end], cells_[cell]));
+    layer_[cell] = layer_[end] = 0;
+    while (cell != end) {
+      double least = INFINITY;
+      const double here = apart(cells_[end], cell);
+      const std::size_t before = cell;
+      for_each_neighbour(reader_, before, [&](std::size_t n) {
+        const double off = std::fabs(dot(normal, cells_[n]));
+        if (off < least && apart(cells_[end], n) < here) least = off, cell = n;
+      });
+      if (cell == before) fail(fmt::format("the triangles at {} are not those of Delaunay", place(cell)));
+      layer_[cell] = 0;
+    }
+  }
+
   /// Calls visit(i) for the cell and all that can be reached from it through unvisited ones of which
   /// enter(i) is true, once.
   template <class Enter, class Visit>
@@ -196,16 +227,23 @@ class Layers {
     }
   }
 
-  /// Between cells on the boundary, neighbours lie on the same side of it: their cells touch.
+  /// Between cells on the boundary, neighbours lie on the same side of it: their cells touch. A chain may
+  /// leave the boundary by the width of a cell, so cells away from it tell first on which side they are.
   void fill() {
     std::vector<bool> visited(cells_.size());
-    for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
-      if (layer_[cell] != kUnknown) continue;
-      const std::int32_t layer = area_.contains(cells_[cell]) ? 0 : kLeftOut;
-      flood(
-          cell, visited, [&](std::size_t n) { return layer_[n] == kUnknown; },
-          [&](std::size_t i) { layer_[i] = layer; });
-    }
+    for (const bool touches : {false, true})
+      for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
+        if (layer_[cell] != kUnknown) continue;
+        bool touches_boundary = false;
+        for_each_neighbour(reader_, cell,
+                           [&](std::size_t n) { touches_boundary = touches_boundary || layer_[n] == 0; });
+        if (touches_boundary != touches) continue;
+        const std::int32_t layer = area_.contains(cells_[cell]) ? kInside : kLeftOut;
+        flood(
+            cell, visited, [&](std::size_t n) { return layer_[n] == kUnknown; },
+            [&](std::size_t i) { layer_[i] = layer; });
+      }
+    std::replace(layer_.begin(), layer_.end(), kInside, 0);
   }
 
   /// Throws if no node lies in the area; `cell`: one on its boundary.

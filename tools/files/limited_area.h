@@ -2,7 +2,7 @@
 // Meshes of a part of the sphere, cut out of a mesh of the sphere as MPAS-Limited-Area does it:
 //
 //    7 6 5 4 3 2 1 0 0 0 0     0      cells of the region: their node lies in it, or its boundary passes
-//     7 6 5 4 3 2 1 0 0 0 0           through them
+//     7 6 5 4 3 2 1 0 0 0 0           through them (or a chain of cells follows it: has_chains)
 //    7 6 5 4 3 2 1 0 0 0 0     1..5   relaxation zone: layers of neighbours around them
 //     7 6 5 4 3 2 1 0 0 0 0    6, 7   specified zone
 //
@@ -25,27 +25,31 @@ constexpr std::int32_t kLayers = 7;  ///< of cells around the region
 constexpr std::int32_t kLeftOut = -1;
 constexpr auto kBdyMaskCell = "bdyMaskCell";
 
-/// Polygons, or a circle.
 struct LimitedArea {
-  std::string name;  ///< in messages
-  /// Without holes; each with one ring, whose sides are straight on the map. They may overlap.
-  std::vector<MapRegion> polygons;
-  double lon = 0, lat = 0, radius = 0;  ///< of the circle: degrees, radians; if there are no polygons
+  std::string name;                 ///< in messages
+  std::vector<MapRegion> polygons;  ///< they may overlap
+  /// The layer 0 of MPAS-Limited-Area, for polygons of arcs: from the cell of each corner to that of the next
+  /// a chain of neighbours along the arc, and what these chains enclose.
+  bool has_chains = false;
 
   /// Pairs of increasing longitudes between which the parallel is inside: degrees, of any turn.
   std::vector<std::pair<double, double>> inside(double lat) const;
   bool contains(const Point& p) const;
-  /// The closed lines around all polygons, or the circle: unit vectors, whose arcs are within 2e-7 rad of
-  /// the line.
+  /// The closed lines around all polygons: unit vectors, whose arcs are within 2e-7 rad of the line.
   std::vector<std::vector<Point>> boundary() const;
-  /// A box of longitudes and latitudes around each polygon, or around the circle.
+  /// A box of longitudes and latitudes around each polygon.
   std::vector<Region> boxes() const;
 };
 
-LimitedArea box_area(std::string name, const Region& box);
-/// The polygons of a GeoJSON file. Throws std::runtime_error if one has a hole, crosses itself, or if all
-/// angles may be radians, which `are_degrees` denies: one line with file, feature, place and remedy.
-LimitedArea polygon_area(const std::string& file, bool are_degrees);
+/// `great_circles`: sides are arcs, and layer 0 is that of MPAS-Limited-Area.
+LimitedArea box_area(std::string name, const Region& box, bool great_circles = false);
+/// `radius` in radians.
+LimitedArea circle_area(std::string name, double lon, double lat, double radius, bool great_circles = false);
+/// The polygons of a GeoJSON file. Throws std::runtime_error if one crosses itself, or if all angles may be
+/// radians, which `are_degrees` denies: one line with file, feature, place and remedy.
+LimitedArea polygon_area(const std::string& file, bool are_degrees, bool great_circles);
+/// The region of a file of MPAS-Limited-Area: read_pts().
+LimitedArea pts_area(const std::string& file, double radius);
 
 /// Sets mesh.layers: for each node 0 to 7 as above, else kLeftOut. The triangles should be those of
 /// Delaunay. Throws std::runtime_error if no node lies in the area, if the cells of the area are not

@@ -237,13 +237,13 @@ std::string NetcdfFile::text(const NetcdfVariable& v, const char* attribute) con
   return text;
 }
 
-std::vector<std::string> NetcdfFile::global_attributes() const {
+std::vector<std::string> NetcdfFile::attributes(const NetcdfVariable& v) const {
   int count = 0;
-  check("", nc_inq_natts(id_, &count));
+  check(v.path, nc_inq_varnatts(v.group, v.id, &count));
   std::vector<std::string> names;
   for (int a = 0; a < count; ++a) {
     char name[NC_MAX_NAME + 1];
-    check("", nc_inq_attname(id_, NC_GLOBAL, a, name));
+    check(v.path, nc_inq_attname(v.group, v.id, a, name));
     names.emplace_back(name);
   }
   return names;

@@ -52,7 +52,7 @@ class NetcdfFile {
   std::string text(const NetcdfVariable& v, const char* attribute) const;
   /// Has the attributes of the file.
   NetcdfVariable global() const { return {"", id_, NC_GLOBAL}; }
-  std::vector<std::string> global_attributes() const;
+  std::vector<std::string> attributes(const NetcdfVariable& v) const;  ///< their names
   /// The numbers of an attribute, also one that is written as a text; empty: there are none.
   std::vector<double> numbers(const NetcdfVariable& v, const char* attribute) const;
   double number(const NetcdfVariable& v, const char* attribute, double otherwise) const;

@@ -568,7 +568,7 @@ double length_of_all(const std::vector<Point>& points) {
 }
 
 void read_notes(const File& file, Notes& notes) {
-  for (const std::string& name : file.global_attributes())
+  for (const std::string& name : file.attributes(file.global()))
     if (is_note(name)) notes[name] = file.text(file.global(), name.c_str());
   // What MPAS' tools write in a mesh that they make of this one.
   const std::string parents = file.text(file.global(), "file_id"),

@@ -153,7 +153,15 @@ class NetcdfWriter {
   void attribute(int variable, const char* name, double value) {
     if (!is_begun_) check(nc_put_att_double(id_, variable, name, NC_DOUBLE, 1, &value));
   }
+  /// Copies an attribute of another file.
+  void attribute(int variable, const char* name, int from_file, int from_variable) {
+    check(nc_copy_att(from_file, from_variable, name, id_, variable));
+  }
 
+  /// write(number of the file) then writes the values of a variable that only was defined.
+  void add(const std::function<void(int)>& write_one) {
+    writing_.emplace_back([this, write_one] { write_one(id_); });
+  }
   /// Writes all values. Must be the last call.
   void write() {
     if (!is_begun_) check(nc_enddef(id_));

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "files/geojson.h"
+#include "files/measures.h"
 #include "numbers.h"
 #include "text_file.h"
 
@@ -132,6 +133,7 @@ class Reader {
 }  // namespace
 
 std::vector<std::pair<double, double>> MapRegion::inside(double lat) const {
+  lat = std::min(lat, std::nextafter(90.0, 0.0));  // a pole is in a region that reaches it
   std::vector<double> crossings;
   for (const auto& ring : rings)
     for (std::size_t i = 1; i < ring.size(); ++i) {
@@ -143,6 +145,12 @@ std::vector<std::pair<double, double>> MapRegion::inside(double lat) const {
   std::vector<std::pair<double, double>> pairs;
   for (std::size_t i = 1; i < crossings.size(); i += 2) pairs.emplace_back(crossings[i - 1], crossings[i]);
   return pairs;
+}
+
+bool MapRegion::contains(const pstripack::Point& p) const {
+  for (const auto& [west, east] : inside(latitude(p)))
+    if (west + std::fmod(std::fmod(longitude(p) - west, 360) + 360, 360) < east) return true;
+  return false;
 }
 
 double MapRegion::area() const {

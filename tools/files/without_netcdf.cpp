@@ -21,6 +21,11 @@ void write_scrip(const OutputFile& file, const Faces&, const Notes&) { refuse(fi
 void write_esmf(const OutputFile& file, const Faces&, const Notes&) { refuse(file.name()); }
 void write_mpas(const OutputFile& file, const Mesh&) { refuse(file.name()); }
 void write_mpas(const OutputFile& file, const MpasMesh&, const MpasValues&) { refuse(file.name()); }
+bool is_mpas_mesh(const Nodes&) { return false; }
+void write_mpas_area(const OutputFile& file, const std::string&, const std::vector<std::int32_t>&,
+                     const Notes&) {
+  refuse(file.name());
+}
 void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>&, const NodeValues&) {
   refuse(file.name());
 }

@@ -130,6 +130,13 @@ struct MpasValues {
 };
 /// Writes the mesh, and beside a file with a name its graph for METIS.
 void write_mpas(const OutputFile& file, const MpasMesh& mesh, const MpasValues& values);
+/// True if the file, not through a pipe, is an MPAS mesh with all lists of neighbours.
+bool is_mpas_mesh(const Nodes& nodes);
+/// Writes the cells of a limited area of the MPAS mesh in `from`, by `layers` of its cells: all variables, of
+/// cells, edges and vertices the rows that stay, in the same order, with new numbers in lists of neighbours;
+/// bdyMaskCell, and which rows they were; the graph as write_mpas().
+void write_mpas_area(const OutputFile& file, const std::string& from, const std::vector<std::int32_t>& layers,
+                     const Notes& notes);
 /// Nodes at the boundary of the triangulation are left out: they have no whole cells.
 void write_mpas(const OutputFile& file, const Mesh& mesh);
 

@@ -18,7 +18,7 @@ namespace {
 struct Options {
   Input input;
   Output output;
-  std::string region;
+  std::string region, sides;
 };
 
 /// bdyMaskCell in the input, if it has it.
@@ -45,7 +45,12 @@ void write_whole(const files::OutputFile& file, const Options& options, const fi
   const Output& output = options.output;
   if (!options.region.empty()) {
     const double radius = output.radius > 0 ? output.radius : nodes.radius == 1 ? 6371220 : nodes.radius;
-    keep_area(mesh, limited_area_of(options.region, options.input.read, radius / 1000));
+    keep_area(mesh, limited_area_of(options.region, options.sides, options.input.read, radius / 1000));
+    const bool keeps_radius = output.radius == 0 || output.radius == nodes.radius;
+    if (output.format == files::Format::mpas && keeps_radius && is_mpas_mesh(nodes)) {
+      write_mpas_area(file, nodes.file, mesh.layers, nodes.notes);
+      return;
+    }
   }
   if (files::holds_a_mesh(output.format)) {
     write_mesh(file, output, mesh);
@@ -149,7 +154,7 @@ void add_convert(CLI::App& app, Command& chosen) {
   add_output(*sub, options->output, true);
   add_radius(*sub, options->output.radius, kRadiusOfMpas);
   add_variant(*sub, options->output);
-  add_limited_area(*sub, options->region);
+  add_limited_area(*sub, options->region, options->sides);
   sub->callback([=, &chosen] { chosen = [=] { convert(*options); }; });
 }
 

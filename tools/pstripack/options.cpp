@@ -144,15 +144,20 @@ bool is_box(const std::string& text) {
   return text.find(',') != text.npos && text.find_first_not_of("+-.,eE0123456789") == text.npos;
 }
 
-files::LimitedArea limited_area_of(const std::string& text, const files::ReadOptions& read, double radius) {
+files::LimitedArea limited_area_of(const std::string& text, const std::string& sides,
+                                   const files::ReadOptions& read, double radius) {
   constexpr std::string_view kCircle = "circle:";
+  const bool great_circles = sides == "great-circle";
   const bool is_circle = text.rfind(kCircle, 0) == 0;
   const bool is_file = !is_circle && !is_box(text);
   if (is_file && text != "-" && !std::filesystem::exists(text))
     throw CLI::ValidationError("--region", "there is no file '" + text +
                                                "': expected WEST,EAST,SOUTH,NORTH, circle:KM,LON,LAT, or a "
-                                               "file of GeoJSON polygons");
-  if (is_file) return files::polygon_area(text, read.units == files::Units::degrees);
+                                               "file of GeoJSON polygons or NAME.pts");
+  if (is_file && std::filesystem::path(text).extension() == ".pts")
+    return files::pts_area(text, 1000 * radius);
+  if (is_file) return files::polygon_area(text, read.units == files::Units::degrees, great_circles);
+  const std::string name = "--region " + text;
   if (!is_circle) {
     const files::Region box = region_of(text);
     if (read.units != files::Units::degrees &&
@@ -161,25 +166,31 @@ files::LimitedArea limited_area_of(const std::string& text, const files::ReadOpt
       throw CLI::ValidationError(
           "--region",
           "'" + text + "': these may be radians: give degrees; if these are degrees, say --units degrees");
-    return files::box_area("--region " + text, box);
+    return files::box_area(name, box, great_circles);
   }
   const std::vector<double> r = numbers_in("--region", text.substr(kCircle.size()), ',', 3);
-  files::LimitedArea area{"--region " + text, {}, r[1], r[2], r[0] / radius};
-  if (!(r[0] > 0 && area.radius < 2 * kDegree * 90 && std::fabs(r[1]) <= 360 && std::fabs(r[2]) <= 90))
+  if (!(r[0] > 0 && r[0] / radius < 2 * kDegree * 90 && std::fabs(r[1]) <= 360 && std::fabs(r[2]) <= 90))
     throw CLI::ValidationError(
         "--region",
         "'" + text +
             fmt::format("': expected circle:KM,LON,LAT: a radius from 0 to {:.0f} km, and degrees",
                         2 * kDegree * 90 * radius));
-  return area;
+  return files::circle_area(name, r[1], r[2], r[0] / radius, great_circles);
 }
 
-CLI::Option* add_limited_area(CLI::App& app, std::string& text) {
-  return app
-      .add_option("--region", text,
-                  "keep the cells of a limited area: WEST,EAST,SOUTH,NORTH, circle:KM,LON,LAT, or a file of "
-                  "GeoJSON polygons, and 7 layers of cells around it, with their bdyMaskCell")
-      ->type_name("REGION");
+CLI::Option* add_limited_area(CLI::App& app, std::string& text, std::string& sides) {
+  CLI::Option* const region =
+      app.add_option("--region", text,
+                     "keep the cells of a limited area: WEST,EAST,SOUTH,NORTH, circle:KM,LON,LAT, or a file "
+                     "of GeoJSON polygons or of MPAS-Limited-Area, NAME.pts, and 7 layers of cells around "
+                     "it, with their bdyMaskCell")
+          ->type_name("REGION");
+  add_words(app, "--sides", {"map", "great-circle"},
+            "sides of the region: map (straight in longitude and latitude) or great-circle, followed as "
+            "MPAS-Limited-Area does; always so of NAME.pts [map]",
+            [&sides](const std::string& word) { sides = word; });
+  app.get_option("--sides")->needs(region);
+  return region;
 }
 
 void keep_area(files::Mesh& mesh, const files::LimitedArea& area) {

@@ -49,10 +49,11 @@ files::Region region_of(const std::string& text, const std::string& option = "--
 /// True if the text consists of numbers, so that it names no file.
 bool is_box(const std::string& text);
 
-/// --region of a limited area: WEST,EAST,SOUTH,NORTH, circle:KM,LON,LAT, or a file of polygons. `radius`: of
-/// the sphere, km.
-files::LimitedArea limited_area_of(const std::string& text, const files::ReadOptions& read, double radius);
-CLI::Option* add_limited_area(CLI::App& app, std::string& text);
+/// --region of a limited area: WEST,EAST,SOUTH,NORTH, circle:KM,LON,LAT, or a file of polygons, and --sides.
+/// `radius`: of the sphere, km.
+files::LimitedArea limited_area_of(const std::string& text, const std::string& sides,
+                                   const files::ReadOptions& read, double radius);
+CLI::Option* add_limited_area(CLI::App& app, std::string& text, std::string& sides);
 /// Sets the layers of the mesh, and says how many cells are kept.
 void keep_area(files::Mesh& mesh, const files::LimitedArea& area);
 

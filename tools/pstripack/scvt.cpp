@@ -52,7 +52,7 @@ struct Options {
   Input start;
   std::string density, density_file, width_file, variable;
   std::string width_text, width_region;
-  std::string region;            ///< that is kept; empty: the sphere
+  std::string region, sides;     ///< that is kept; empty: the sphere
   files::LimitedArea area;       ///< the region
   files::Point centre{0, 0, 0};  ///< of its cells
   double width = 0;              ///< of all cells, km; 0: not given
@@ -76,15 +76,18 @@ struct Options {
 constexpr auto kEvaluations = "scvt_iterations", kDensity = "scvt_density",
                kDensityFile = "scvt_density_file", kWidthFile = "scvt_width_file", kWidth = "scvt_width",
                kWidthRegion = "scvt_width_region", kVariable = "scvt_density_variable",
-               kRegion = "scvt_region", kRadius = "scvt_radius", kGrade = "scvt_grade", kSteps = "scvt_steps",
-               kPairs = "scvt_pairs", kExponent = "scvt_exponent", kMark = "scvt_mark",
+               kRegion = "scvt_region", kSides = "scvt_sides", kRadius = "scvt_radius", kGrade = "scvt_grade",
+               kSteps = "scvt_steps", kPairs = "scvt_pairs", kExponent = "scvt_exponent", kMark = "scvt_mark",
                kEnergy = "scvt_energy_at_mark";
 
 // The options that are stored in them as they are.
-constexpr std::pair<const char*, std::string Options::*> kStored[] = {
-    {kDensity, &Options::density},          {kDensityFile, &Options::density_file},
-    {kWidthFile, &Options::width_file},     {kWidth, &Options::width_text},
-    {kWidthRegion, &Options::width_region}, {kRegion, &Options::region}};
+constexpr std::pair<const char*, std::string Options::*> kStored[] = {{kDensity, &Options::density},
+                                                                      {kDensityFile, &Options::density_file},
+                                                                      {kWidthFile, &Options::width_file},
+                                                                      {kWidth, &Options::width_text},
+                                                                      {kWidthRegion, &Options::width_region},
+                                                                      {kRegion, &Options::region},
+                                                                      {kSides, &Options::sides}};
 
 std::string note(const files::Notes& notes, const char* name) {
   const auto found = notes.find(name);
@@ -329,7 +332,7 @@ void choose_density(Options& options, const files::Notes& notes) {
   }
   if (!is_chosen()) options.density = "constant";
   if (!options.region.empty())
-    options.area = limited_area_of(options.region, options.start.read, options.radius / 1000);
+    options.area = limited_area_of(options.region, options.sides, options.start.read, options.radius / 1000);
   const bool widths_differ = !options.width_file.empty() || !options.width_text.empty();
   // With a region most of the gradient is that of the coarse cells outside.
   if (options.tolerance < 0 && widths_differ) options.settled = 3e-5;
@@ -847,7 +850,7 @@ void add_scvt(CLI::App& app, Command& chosen) {
   sub->add_option("--width-region", options->width_region,
                   "GeoJSON polygons with properties width and transition, km, within --width elsewhere")
       ->type_name("FILE");
-  add_limited_area(*sub, options->region)->excludes("--density")->excludes("--density-file");
+  add_limited_area(*sub, options->region, options->sides)->excludes("--density")->excludes("--density-file");
   sub->add_option("--grade", options->grade,
                   "largest change of widths, km per km: widths above it are lowered [0.2]")
       ->type_name("NUMBER")

@@ -314,8 +314,8 @@ def check_cut(mesh, name, kept):
         assert np.allclose(getattr(again, variable), getattr(part, variable), rtol=1e-12, atol=1e-12), variable
 
 
-def is_inside(point, circle, rings):
-    """With 40 digits. The sides of rings are straight on the map: crossed by a parallel, east of the point, an odd number
+def is_inside(point, circle, polygons):
+    """With 40 digits. The sides of polygons are straight on the map: crossed by a parallel, east of the point, an odd number
     of times."""
     x, y, z = (mpmath.mpf(float(c)) for c in point)
     if circle:
@@ -323,12 +323,12 @@ def is_inside(point, circle, rings):
         cosine = (mpmath.cos(q) * (x * mpmath.cos(p) + y * mpmath.sin(p)) + z * mpmath.sin(q)) / mpmath.sqrt(x * x + y * y + z * z)
         return mpmath.acos(cosine) < km / mpmath.mpf("6371.22")
     lon, lat = mpmath.degrees(mpmath.atan2(y, x)), mpmath.degrees(mpmath.atan2(z, mpmath.hypot(x, y)))
-    crossings = [[x1 + (lat - y1) / (y2 - y1) * (mpmath.mpf(x2) - x1) for (x1, y1), (x2, y2) in zip(ring, ring[1:])
-                  if (y1 <= lat) != (y2 <= lat)] for ring in rings]
-    return any(sum(across > lon + turn for across in ring) % 2 == 1 for ring in crossings for turn in (-360, 0, 360))
+    crossings = [[x1 + (lat - y1) / (y2 - y1) * (mpmath.mpf(x2) - x1) for ring in polygon for (x1, y1), (x2, y2) in zip(ring, ring[1:])
+                  if (y1 <= lat) != (y2 <= lat)] for polygon in polygons]
+    return any(sum(across > lon + turn for across in all) % 2 == 1 for all in crossings for turn in (-360, 0, 360))
 
 
-def places_on_boundary(circle, rings, count=20000):
+def places_on_boundary(circle, polygons, count=20000):
     """Places all along the boundary, as unit vectors."""
     t = np.linspace(0, 1, count)
     if circle:
@@ -337,26 +337,64 @@ def places_on_boundary(circle, rings, count=20000):
         east = np.array([-math.sin(p), math.cos(p), 0])
         around = np.outer(np.cos(2 * math.pi * t), east) + np.outer(np.sin(2 * math.pi * t), np.cross(centre, east))
         return math.cos(r) * centre + math.sin(r) * around
-    sides = [side for ring in rings for side in zip(ring, ring[1:])]
+    sides = [side for polygon in polygons for ring in polygon for side in zip(ring, ring[1:])]
     part = t[::len(sides)]
     lon, lat = (np.radians(np.concatenate([a[k] + part * (b[k] - a[k]) for a, b in sides])) for k in (0, 1))
     return np.stack([np.cos(lat) * np.cos(lon), np.cos(lat) * np.sin(lon), np.sin(lat)], axis=1)
 
 
-def layers_by_definition(mesh, circle, rings):
+def layers_by_definition(mesh, circle, polygons):
     """bdyMaskCell: 0 where the node is inside or a place on the boundary is nearest to it, then rings of neighbours; 8: none."""
     mask = np.full(len(mesh.cell), 8)
     cells = mesh.cell.astype(float)
-    for places in np.array_split(places_on_boundary(circle, rings), 40):
+    for places in np.array_split(places_on_boundary(circle, polygons), 40):
         mask[(places @ cells.T).argmax(axis=1)] = 0
     with mpmath.workdps(40):
-        inside = np.array([is_inside(point, circle, rings) for point in mesh.cell])
+        inside = np.array([is_inside(point, circle, polygons) for point in mesh.cell])
     assert inside.any()
     mask[inside] = 0
+    return with_layers(mesh, mask)
+
+
+def neighbours(mesh, cell):
+    around = mesh.cellsOnCell[cell, :mesh.nEdgesOnCell[cell]] - 1
+    return around[around >= 0]
+
+
+def unit_vectors(lat, lon):
+    lat, lon = np.radians(lat), np.radians(lon)
+    return np.stack([np.cos(lat) * np.cos(lon), np.cos(lat) * np.sin(lon), np.sin(lat)], axis=-1)
+
+
+def layers_by_chains(mesh, lines, inside):
+    """bdyMaskCell as MPAS-Limited-Area finds it. lines: of corners (lat, lon); inside: a place (lat, lon). From the cell
+    nearest to a corner to that nearest to the next: of the neighbours nearer to it, the one nearest to the great circle.
+    Then all that can be reached from the cell nearest to `inside`."""
+    cells = mesh.cell.astype(float)
+    mask = np.full(len(cells), 8)
+    for line in lines:
+        ends = (unit_vectors(*np.transpose(line)) @ cells.T).argmax(axis=1)
+        for cell, end in zip(ends, np.roll(ends, -1)):
+            mask[[cell, end]] = 0
+            normal = np.cross(cells[cell], cells[end])
+            while cell != end:
+                around = neighbours(mesh, cell)
+                around = around[cells[around] @ cells[end] > cells[cell] @ cells[end]]
+                cell = around[np.abs(cells[around] @ normal).argmin()]
+                mask[cell] = 0
+    stack = [(unit_vectors(*inside) @ cells.T).argmax()]
+    while stack:
+        cell = stack.pop()
+        if mask[cell] == 8:
+            mask[cell] = 0
+            stack += list(neighbours(mesh, cell))
+    return with_layers(mesh, mask)
+
+
+def with_layers(mesh, mask):
     for layer in range(1, 8):
         for cell in np.flatnonzero(mask == layer - 1):
-            around = mesh.cellsOnCell[cell, :mesh.nEdgesOnCell[cell]] - 1
-            around = around[around >= 0]
+            around = neighbours(mesh, cell)
             mask[around[mask[around] == 8]] = layer
     return mask
 
@@ -373,28 +411,77 @@ def check_masks(part, mask):
     assert ((part.boundaryVertex == 1) == (part.cellsOnVertex == 0).any(axis=1)).all()
 
 
-def check_region(mesh, name, circle=None, rings=None, text=None):
-    """Cuts a limited area out of the mesh in FOLDER/name.mpas.nc."""
+def check_rows(mesh, name, kept):
+    """All variables of a part are those of the whole mesh: rows of cells, edges and vertices that stay, with new indices."""
+    kept = {"nCells": kept}
+    for of in ("Edge", "Vertex"):
+        kept["n" + {"Edge": "Edges", "Vertex": "Vertices"}[of]] = np.append(False, kept["nCells"])[getattr(mesh, f"cellsOn{of}")].any(axis=1)
+    number = {key: np.append(0, np.cumsum(rows) * rows) for key, rows in kept.items()}
+    with netCDF4.Dataset(FOLDER / f"{name}.mpas.nc") as whole, netCDF4.Dataset(FOLDER / f"{name}_part.mpas.nc") as part:
+        for dimension in ("Cell", "nCells"), ("Edge", "nEdges"), ("Vertex", "nVertices"):
+            assert (part["mapCulledToBase" + dimension[0]][:] == np.flatnonzero(kept[dimension[1]])).all()
+        for variable, ours in whole.variables.items():
+            if variable == "boundaryVertex":  # check_masks()
+                continue
+            ours.set_auto_mask(False)
+            values, theirs = ours[:], part[variable]
+            theirs.set_auto_mask(False)
+            assert (theirs.dtype, theirs.dimensions) == (ours.dtype, ours.dimensions) and str(vars(theirs)) == str(vars(ours)), variable
+            for axis, dimension in enumerate(ours.dimensions):
+                if dimension in kept:
+                    values = np.compress(kept[dimension], values, axis)
+            for key, word in ("nCells", "Cell"), ("nEdges", "Edge"), ("nVertices", "Vertex"):
+                if variable.startswith({"Vertex": "vertices"}.get(word, word.lower() + "s") + "On") or variable == f"indexTo{word}ID":
+                    values = number[key][values].astype(ours.dtype)
+            assert values.tobytes() == np.asarray(theirs[:]).tobytes(), variable
+        assert {key: value.isunlimited() for key, value in whole.dimensions.items()} == {
+            key: value.isunlimited() for key, value in part.dimensions.items()}
+        assert part.file_id != whole.file_id == part.parent_id.split()[0] and part.history.startswith("pstripack convert ")
+        assert all(part.getncattr(key) == whole.getncattr(key) for key in whole.ncattrs() if key not in ("file_id", "parent_id", "history"))
+
+
+def check_region(mesh, name, circle=None, polygons=None, text=None, mask=None, options=()):
+    """Cuts a limited area out of the mesh in FOLDER/name.mpas.nc. mask: bdyMaskCell, if not that by definition."""
     if text is None:
         text = FOLDER / f"{name}_region.geojson"
-        text.write_text(json.dumps({"type": "MultiPolygon", "coordinates": [[ring] for ring in rings]}))
-    mask = layers_by_definition(mesh, circle, rings)
+        text.write_text(json.dumps({"type": "MultiPolygon", "coordinates": polygons}))
+    by_definition = mask is None
+    if by_definition:
+        mask = layers_by_definition(mesh, circle, polygons)
     kept = mask < 8
     assert 0 < kept.sum() < len(kept)
-    run("convert", FOLDER / f"{name}.mpas.nc", "--region", text, "-o", FOLDER / f"{name}_part.mpas.nc")
-    part = check(f"{name}_part", 1e-10)
+    run("convert", FOLDER / f"{name}.mpas.nc", "--region", text, *options, "-o", FOLDER / f"{name}_part.mpas.nc")
+    part = Mesh(FOLDER / f"{name}_part.mpas.nc")
     check_masks(part, mask[kept])
-    assert all((getattr(part, axis) == getattr(mesh, axis)[kept]).all() for axis in ("xCell", "yCell", "zCell", "lonCell"))
-    assert np.allclose(part.areaCell, mesh.areaCell[kept], rtol=1e-13)
-    assert getattr(part, "nominalMinDc", 0) == getattr(mesh, "nominalMinDc", 0)
-    # What is cut can be read.
+    check_rows(mesh, name, kept)
+    check_graph(part, FOLDER / f"{name}_part.graph.info")
+    if not by_definition:
+        return part
+    # What is cut can be read, and numbered as the converter does.
     run("convert", FOLDER / f"{name}_part.mpas.nc", "-o", FOLDER / f"{name}_again.mpas.nc")
-    again = Mesh(FOLDER / f"{name}_again.mpas.nc")
-    for variable, value in vars(part).items():
-        if isinstance(value, np.ndarray):
-            other = getattr(again, variable)
-            assert (other == value).all() if value.dtype.kind == "i" else np.allclose(other, value, 1e-12, 1e-12), variable
+    again = check(f"{name}_again", 1e-10)
+    check_masks(again, mask[kept])
+    assert all((getattr(again, axis) == getattr(mesh, axis)[kept]).all() for axis in ("xCell", "yCell", "zCell", "lonCell"))
+    assert np.allclose(again.areaCell, mesh.areaCell[kept], rtol=1e-13)
+    assert getattr(again, "nominalMinDc", 0) == getattr(mesh, "nominalMinDc", 0)
     return part
+
+
+def check_pts(mesh, name, text, lines, inside):
+    """A region as MPAS-Limited-Area's file describes it."""
+    (FOLDER / f"{name}.pts").write_text(text)
+    return check_region(mesh, name, text=FOLDER / f"{name}.pts", mask=layers_by_chains(mesh, lines, inside))
+
+
+def ellipse(lat, lon, a, b, turn):
+    """100 corners (lat, lon). a, b: metres; turn: of a, degrees from north to east."""
+    angle = np.radians(np.arange(100) * 3.6)
+    radius = a * b / np.hypot(a * np.sin(angle), b * np.cos(angle)) / 6371220
+    towards = angle + math.radians(turn)
+    up = math.radians(lat)
+    sine = math.sin(up) * np.cos(radius) + math.cos(up) * np.sin(radius) * np.cos(towards)
+    east = np.arctan2(np.sin(towards) * np.sin(radius) * math.cos(up), np.cos(radius) - math.sin(up) * sine)
+    return np.degrees(np.stack([np.arcsin(sine), math.radians(lon) + east], axis=1))
 
 
 def check_other_formats(part, name, text):
@@ -449,11 +536,50 @@ run("points", "random", 1000, "-o", FOLDER / "sphere.txt")
 run("triangulate", FOLDER / "sphere.txt", "-o", FOLDER / "sphere.mpas.nc")
 sphere = Mesh(FOLDER / "sphere.mpas.nc")
 check_region(sphere, "sphere", circle=(1500, 20, 84), text="circle:1500,20,84")
-check_region(sphere, "sphere", rings=[[(170, -12), (190, -12), (190, 5), (170, 5), (170, -12)]], text="170,-170,-12,5")
-check_region(sphere, "sphere", rings=[[(-180, -40), (-170, -30), (-180, -20), (-180, -40)],
-                                      [(180, -40), (180, -20), (176, -30), (180, -40)]])
-concave = check_region(sphere, "sphere", rings=[[(0, 20), (30, 20), (30, 26), (8, 27), (7, 50), (0, 50), (0, 20)]])
+check_region(sphere, "sphere", polygons=[[[(170, -12), (190, -12), (190, 5), (170, 5), (170, -12)]]], text="170,-170,-12,5")
+check_region(sphere, "sphere", polygons=[[[(-180, -40), (-170, -30), (-180, -20), (-180, -40)]],
+                                         [[(180, -40), (180, -20), (176, -30), (180, -40)]]])
+concave = check_region(sphere, "sphere", polygons=[[[(0, 20), (30, 20), (30, 26), (8, 27), (7, 50), (0, 50), (0, 20)]]])
 check_other_formats(concave, "sphere", FOLDER / "sphere_region.geojson")
+# With a hole; all but a hole.
+check_region(sphere, "sphere", polygons=[[[(0, 0), (60, 0), (60, 50), (0, 50), (0, 0)], [(20, 12), (45, 12), (45, 38), (20, 38), (20, 12)]]])
+check_region(sphere, "sphere", polygons=[[[(-180, -90), (180, -90), (180, 90), (-180, 90), (-180, -90)],
+                                          [(-140, -75), (0, -75), (140, -75), (140, 75), (0, 75), (-140, 75), (-140, -75)]]])
+
+# Regions of MPAS-Limited-Area, of a file with all that a model's has: records, levels, texts, types.
+levels = np.random.default_rng(1)
+with netCDF4.Dataset(FOLDER / "sphere.mpas.nc", "a") as data:
+    for dimension, n in (("nVertLevels", 3), ("StrLen", 8), ("nMonths", 12)):
+        data.createDimension(dimension, n)
+    for variable, kind, dimensions in (
+            ("theta", "f4", ("Time", "nCells", "nVertLevels")), ("u", "f8", ("Time", "nEdges", "nVertLevels")),
+            ("greenfrac", "f4", ("nCells", "nMonths")), ("monthly", "f4", ("nMonths", "nCells")), ("xtime", "S1", ("Time", "StrLen")),
+            ("landmask", "i1", ("nCells",)), ("number", "i8", ("nVertices",)), ("rdzw", "f8", ("nVertLevels",)), ("cf1", "f8", ())):
+        v = data.createVariable(variable, kind, dimensions)
+        v.setncatts({"units": "-", "missing": np.arange(3, dtype="f4")})
+        size = [2 if d == "Time" else len(data.dimensions[d]) for d in dimensions]
+        values = levels.integers(65, 90, size).astype("u1" if kind == "S1" else kind)
+        v[...] = values.view("S1") if kind == "S1" else values
+lines = [[(62, -70), (55, 60), (0, 75), (-60, 80), (-62, -60)], [(10 * (k % 3) - 10, 60 * k) for k in range(6)]]
+for inside in (3, 2), (-4, 200):  # between great circles, or all but that; around the pole
+    check_pts(sphere, "sphere", "Name: a b\nTYPE: Custom\n\nPoint: %g, %g\n" % inside + "".join("%g , %g # corner\n" % corner for corner in lines[0]),
+              lines[:1], inside)
+for inside in (88, 10), (-60, 0):
+    check_pts(sphere, "sphere", "Type: custom\nPoint: %g, %g\n" % inside + "".join("%g,%g\n" % corner for corner in lines[1]), lines[1:], inside)
+check_pts(sphere, "sphere", "Name: Circle\nType: circle\nPoint: -40, 175\nradius: 2500000 # metres\n",
+          [ellipse(-40, 175, 25e5, 25e5, 0)], (-40, 175))
+check_pts(sphere, "sphere", "Type: ellipse\nPoint: 60, 20\nSemi-major-axis: 4e6\nsemi-minor-axis: 2e6\nOrientation-angle: 30\n",
+          [ellipse(60, 20, 4e6, 2e6, 30)], (60, 20))
+for south, north in (-10, 20), (30, 90), (-70, -30):
+    check_pts(sphere, "sphere", f"Type: channel\nUpper-lat: {north}\nLower-lat: {south}\n",
+              [[(lat, 3.6 * k) for k in range(100)] for lat in (south, north)], ((south + north) / 2, 0))
+# Polygons of GeoJSON, a box and a circle by great circles.
+check_region(sphere, "sphere", polygons=[[[corner[::-1] for corner in lines[0] + lines[0][:1]]]], options=("--sides", "great-circle"),
+             mask=layers_by_chains(sphere, lines[:1], (3, 2)))
+check_region(sphere, "sphere", text="170,-150,50,70", options=("--sides", "great-circle"),
+             mask=layers_by_chains(sphere, [[(50, 170), (50, 210), (70, 210), (70, 170)]], (62, 190)))
+check_region(sphere, "sphere", text="circle:2500,175,-40", options=("--sides", "great-circle"),
+             mask=layers_by_chains(sphere, [ellipse(-40, 175, 25e5, 25e5, 0)], (-40, 175)))
 
 # A mesh made for a limited area: 7 layers of the width asked for, and hexagons.
 said = run("scvt", "--width", "150km", "--region", "circle:900,10,50", "-o", FOLDER / "limited.mpas.nc")

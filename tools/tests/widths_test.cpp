@@ -244,9 +244,10 @@ TEST(widths_of_regions, change_over_the_transitions_and_hold_holes_datelines_and
 
 TEST(widths_in, are_those_asked_for_in_the_area_and_ten_widths_around_it_then_grow) {
   const double km = 1 / 6371.0 / kDegree;  // in degrees
-  const files::LimitedArea disc{
-      "disc", {}, 170, 80, 1000 / 6371.0},  // holds neither pole, crosses the dateline
-      cap{"cap", {}, 0, 90, 2000 / 6371.0}, box = files::box_area("box", {-20, 25, -15, 15});
+  // The disc holds neither pole, and crosses the dateline.
+  const files::LimitedArea disc = files::circle_area("disc", 170, 80, 1000 / 6371.0),
+                           cap = files::circle_area("cap", 0, 90, 2000 / 6371.0),
+                           box = files::box_area("box", {-20, 25, -15, 15});
   struct Rim {
     const files::LimitedArea& area;
     double lon, lat;
@@ -265,14 +266,16 @@ TEST(widths_in, are_those_asked_for_in_the_area_and_ten_widths_around_it_then_gr
       EXPECT_GT(width(towards * outside * km), 20 + 0.2 * (outside - 200) - 12) << area.name << outside;
       EXPECT_LT(width(towards * outside * km), 20 + 0.2 * (outside - 200) + 2) << area.name << outside;
     }
-    const double part =
-        area.name == "box" ? 45.0 / 360 * std::sin(15 * kDegree) : (1 - std::cos(area.radius)) / 2;
+    const double part = area.name == "box"
+                            ? 45.0 / 360 * std::sin(15 * kDegree)
+                            : (1 - std::cos(area.name == "disc" ? 1000 / 6371.0 : 2000 / 6371.0)) / 2;
     EXPECT_NEAR(regional.inside / (part * cells_of_width(20, 6371)), 1, 0.03) << area.name;
     EXPECT_LT(regional.widths.cells, 2 * regional.inside) << area.name;
     EXPECT_TRUE(area.contains(regional.centre)) << area.name;
     if (area.name == "box") continue;
-    files::LimitedArea wider = area;  // the same in all directions
-    wider.radius += 195 / 6371.0;
+    const auto wider =  // the same in all directions
+        area.name == "disc" ? files::circle_area("", 170, 80, 1195 / 6371.0)
+                            : files::circle_area("", 0, 90, 2195 / 6371.0);
     const std::vector<Point> around = wider.boundary()[0];
     for (const Point& p : around) EXPECT_NEAR(regional.widths.density->at(p), 1, 1e-12);
   }
@@ -284,12 +287,13 @@ TEST(widths_in, are_those_asked_for_in_the_area_and_ten_widths_around_it_then_gr
   EXPECT_NEAR(steep.widths.least /
                   std::sqrt(std::sqrt(steep.widths.density->at(point_sets::from_degrees(0, 1000 * km)))),
               40, 0.1);
-  EXPECT_THROW(widths_in({"small", {}, 0, 0, 5 / 6371.0}, WidthFormula(20).widths(6371), 0.2, 6371),
-               std::runtime_error);
+  EXPECT_THROW(
+      widths_in(files::circle_area("small", 0, 0, 5 / 6371.0), WidthFormula(20).widths(6371), 0.2, 6371),
+      std::runtime_error);
 }
 
 TEST(front_around, is_one_lattice_around_the_centre) {
-  const files::LimitedArea area{"disc", {}, -77, 33, 1000 / 6371.0};
+  const files::LimitedArea area = files::circle_area("disc", -77, 33, 1000 / 6371.0);
   const RegionalWidths regional = widths_in(area, WidthFormula(80).widths(6371), 0.2, 6371);
   const auto n = static_cast<std::size_t>(regional.widths.cells);
   files::Mesh mesh = files::triangulate(front_around(regional.centre, n, *regional.widths.density));

@@ -1,0 +1,239 @@
+// Regions between arcs of great circles, and MPAS-Limited-Area's files of them.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+
+#include "files/columns.h"
+#include "files/measures.h"
+#include "files/nearest.h"
+#include "files/width_regions.h"
+#include "numbers.h"
+#include "point_sets.h"
+#include "text_file.h"
+
+namespace files {
+namespace {
+
+using pstripack::Point;
+using Line = std::vector<Point>;
+using Ring = std::vector<std::pair<double, double>>;
+
+/// The closed line of arcs on the map, from a turn of the first corner's longitude on. A line around a pole
+/// is closed along the one that gives it the smaller area.
+Ring on_map(const Line& corners, double lon) {
+  Ring ring{{lon, 0}};
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    add_arc(corners[i], corners[(i + 1) % corners.size()], ring);
+  ring.erase(ring.begin());
+  const auto [west, lat] = ring.front();
+  const double end = west + 360 * std::round((ring.back().first - west) / 360);
+  ring.emplace_back(end, lat);
+  if (end == west) return ring;
+  ring.insert(ring.end(), {{end, 90}, {west, 90}, {west, lat}});
+  if (MapRegion{0, "", {ring}}.area() > 2 * 3.14159265358979323846)
+    (ring.end() - 2)->second = (ring.end() - 3)->second = -90;
+  return ring;
+}
+
+}  // namespace
+
+void add_arc(const Point& a, const Point& b, Ring& line) {
+  constexpr double kStep = 0.1;  // degrees. An arc leaves a line on the map by at most step^2 / 16.
+  constexpr double kShort = 1e-8;
+  const double turn = std::remainder(longitude(b) - longitude(a), 360), up = latitude(b) - latitude(a);
+  if (std::max(std::fabs(turn), std::fabs(up)) > kStep && length(minus(a, b)) > kShort) {
+    const Point middle = unit({a.x + b.x, a.y + b.y, a.z + b.z});
+    add_arc(a, middle, line);
+    add_arc(middle, b, line);
+    return;
+  }
+  const double lon = longitude(a), before = line.empty() ? lon : line.back().first;
+  line.emplace_back(lon + 360 * std::round((before - lon) / 360), latitude(a));
+}
+
+MapRegion region_of_arcs(std::vector<Line> corners, const Point& inside) {
+  MapRegion region{1};
+  double west = 540;
+  for (const Line& line : corners) region.rings.push_back(on_map(line, longitude(line[0])));
+  for (const Ring& ring : region.rings)
+    for (const auto& corner : ring) west = std::min(west, corner.first);
+  const double shift = west < -180 ? 360 : 0;
+  for (Ring& ring : region.rings)
+    for (auto& corner : ring) corner.first += shift;
+  west += shift;
+  if (!region.contains(inside))  // then all around it
+    region.rings.insert(region.rings.begin(),
+                        {{west, -90}, {west + 360, -90}, {west + 360, 90}, {west, 90}, {west, -90}});
+  region.corners = std::move(corners);
+  return region;
+}
+
+MapRegion ellipse_region(double lon, double lat, double a, double b, double turn, int n) {
+  const Point centre = point_sets::from_degrees(lon, lat), north = point_sets::from_degrees(lon, lat + 90),
+              east = cross(north, centre);
+  Line line;
+  for (int k = 0; k < n; ++k) {
+    const double angle = 360.0 * k / n, c = point_sets::cos_degrees(angle),
+                 s = point_sets::sin_degrees(angle), radius = a * b / std::hypot(a * s, b * c),
+                 up = std::cos(radius), out = std::sin(radius),
+                 n_part = out * point_sets::cos_degrees(angle + turn),
+                 e_part = out * point_sets::sin_degrees(angle + turn);
+    line.push_back({up * centre.x + n_part * north.x + e_part * east.x,
+                    up * centre.y + n_part * north.y + e_part * east.y,
+                    up * centre.z + n_part * north.z + e_part * east.z});
+  }
+  return region_of_arcs({line}, centre);
+}
+
+void follow_great_circles(MapRegion& region) {
+  for (Ring& ring : region.rings) {
+    Line& line = region.corners.emplace_back();
+    for (std::size_t i = 0; i + 1 < ring.size(); ++i) {
+      const auto [x, y] = ring[i];
+      const auto [to_x, to_y] = ring[i + 1];
+      line.push_back(point_sets::from_degrees(x, y));
+      if (std::fabs(to_x - x) >= 180 && std::fabs(y + to_y) < 180)
+        throw std::runtime_error(fmt::format(
+            "feature {}: its side from {:g},{:g} to {:g},{:g} is no arc of less than 180 degrees: "
+            "add corners between them",
+            region.feature, x, y, to_x, to_y));
+    }
+    ring = on_map(line, ring[0].first);
+  }
+}
+
+// ---- files of MPAS-Limited-Area
+// -----------------------------------------------------------------------------
+
+namespace {
+
+std::string trimmed(const std::string& text) {
+  constexpr auto kBlanks = " \t\r";
+  const std::size_t begin = text.find_first_not_of(kBlanks);
+  return begin == text.npos ? "" : text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
+}
+
+std::string in_small_letters(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+class PtsFile {
+ public:
+  explicit PtsFile(const std::string& file) : file_(file) {
+    std::istringstream text(point_sets::contents_of(file));
+    std::string line;
+    for (std::size_t number = 1; std::getline(text, line); ++number) {
+      line = trimmed(line.substr(0, line.find('#')));
+      const std::size_t colon = line.find(':');
+      if (line.empty()) continue;
+      if (colon == line.npos) {
+        corners_.push_back(place("a corner", {line, number}));
+        continue;
+      }
+      const std::string key = trimmed(line.substr(0, colon));
+      const auto known = std::find_if(kKeys.begin(), kKeys.end(), [&](const std::string& name) {
+        return in_small_letters(name) == in_small_letters(key);
+      });
+      if (known == kKeys.end())
+        fail(number, fmt::format("unknown key '{}'{}", point_sets::excerpt(key), did_you_mean(key, kKeys)));
+      if (!values_.emplace(*known, Value{trimmed(line.substr(colon + 1)), number}).second)
+        fail(number, *known + " a second time");
+    }
+  }
+
+  /// `radius`: of the sphere, metres.
+  MapRegion region(double radius) const {
+    const auto& [text, line] = value("Type");
+    const std::string type = in_small_letters(text);
+    if (type != "custom" && !corners_.empty())
+      fail(line, fmt::format("the Type '{}' has no corners: only custom has", point_sets::excerpt(text)));
+    MapRegion region;
+    constexpr int kCorners = 100;
+    const auto radians = [&](const char* key) { return number(key, 1, 3.14159 * radius) / radius; };
+    if (type == "channel") {
+      const double north = number("Upper-lat", -90, 90), south = number("Lower-lat", -90, north);
+      std::vector<Line> lines;
+      for (const double lat : {south, north}) {
+        lines.emplace_back();
+        for (int k = 0; k < kCorners; ++k)
+          lines.back().push_back(point_sets::from_degrees(360.0 * k / kCorners, lat));
+      }
+      region = region_of_arcs(lines, point_sets::from_degrees(0, (south + north) / 2));
+    } else if (type == "custom") {
+      if (corners_.size() < 3) fail(line, "custom needs three corners or more: lines of `lat, lon`");
+      for (std::size_t i = 0; i < corners_.size(); ++i)
+        if (dot(corners_[i], corners_[(i + 1) % corners_.size()]) < -1 + 1e-12)
+          fail(line,
+               fmt::format("no one arc joins corner {} to the next, which is opposite: add one", i + 1));
+      region = region_of_arcs({corners_}, place("Point", value("Point")));
+    } else if (type == "circle" || type == "ellipse") {
+      const LonLat centre({place("Point", value("Point"))}, true);
+      const bool is_circle = type == "circle";
+      const double a = radians(is_circle ? "radius" : "Semi-major-axis"),
+                   b = is_circle ? a : radians("Semi-minor-axis"),
+                   turn = is_circle ? 0 : number("Orientation-angle", -360, 360);
+      region = ellipse_region(centre.lon[0], centre.lat[0], a, b, turn, kCorners);
+    } else {
+      fail(line,
+           fmt::format("Type '{}': expected circle, ellipse, channel or custom", point_sets::excerpt(text)));
+    }
+    if (const auto name = values_.find("Name"); name != values_.end()) region.name = name->second.text;
+    return region;
+  }
+
+ private:
+  struct Value {
+    std::string text;
+    std::size_t line;
+  };
+  inline static const std::vector<std::string> kKeys{
+      "Name",      "Type",     "Point", "radius", "Semi-major-axis", "Semi-minor-axis", "Orientation-angle",
+      "Upper-lat", "Lower-lat"};
+
+  [[noreturn]] void fail(std::size_t line, const std::string& what) const {
+    throw std::runtime_error(fmt::format("{}:{}: {}", file_, line, what));
+  }
+  const Value& value(const std::string& key) const {
+    const auto found = values_.find(key);
+    if (found == values_.end())
+      throw std::runtime_error(fmt::format("{}: there is no line `{}: ...`", file_, key));
+    return found->second;
+  }
+  double number(const std::string& key, double low, double high) const {
+    const auto& [text, line] = value(key);
+    double number = 0;
+    if (!point_sets::parse(text, number) || !(number >= low && number <= high))
+      fail(line, fmt::format("{}: '{}': expected a number from {:g} to {:g}", key, point_sets::excerpt(text),
+                             low, high));
+    return number;
+  }
+  Point place(const std::string& what, const Value& from) const {
+    std::string text = from.text;
+    text.erase(std::remove_if(text.begin(), text.end(), [](char c) { return c == ' ' || c == '\t'; }),
+               text.end());
+    const std::vector<double> parts = numbers_between(text, ',');
+    if (parts.size() != 2 || std::fabs(parts[0]) > 90 || std::fabs(parts[1]) > 360)
+      fail(from.line, fmt::format("{}: '{}': expected `latitude, longitude` in degrees", what,
+                                  point_sets::excerpt(from.text)));
+    return point_sets::from_degrees(parts[1], parts[0]);
+  }
+
+  std::string file_;
+  std::map<std::string, Value> values_;
+  std::vector<Point> corners_;
+};
+
+}  // namespace
+
+std::vector<MapRegion> read_pts(const std::string& file, double radius) {
+  return {PtsFile(file).region(radius)};
+}
+
+}  // namespace files
