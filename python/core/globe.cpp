@@ -13,15 +13,14 @@ std::vector<T> items(const Array<T>& array) {
 }  // namespace
 
 py::str globe(const std::string& title, const Array<double>& lon, const Array<double>& lat,
-              const Array<std::int32_t>& simplices, const Array<double>& areas, const Array<double>& values,
-              const std::string& name, const std::string& unit, bool shows_values, const std::string& coasts,
+              const Array<std::int32_t>& simplices, const Array<double>& values, const std::string& name,
+              const std::string& unit, bool shows_values, const std::string& coasts,
               const std::string& three) {
   pictures::Globe globe;
   globe.title = title;
   globe.first_number = 0;
   globe.lon = items(lon), globe.lat = items(lat);
   globe.triangles = items(simplices);
-  globe.areas = items(areas);
   globe.cells = true;
   if (shows_values) {
     globe.value_name = name, globe.value_unit = unit;

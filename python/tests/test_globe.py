@@ -1,4 +1,3 @@
-import base64
 import json
 import re
 from html import unescape
@@ -23,10 +22,6 @@ def data_of(page):
     return json.loads(re.search(r'(?s)<script type="application/json" id="data">(.*?)</script>', page)[1])
 
 
-def doubles(text):
-    return np.frombuffer(base64.b64decode(text), "<f8")
-
-
 def test_the_page_has_the_numbers_of_the_mesh(tmp_path):
     lon, lat = np.array([0, 90.5, 180, 270, 0, 0, 12.25]), np.array([0, 0, 0, 0, 90, -90, 55.125])
     mesh = Delaunay.from_lonlat(lon, lat)
@@ -35,11 +30,10 @@ def test_the_page_has_the_numbers_of_the_mesh(tmp_path):
     assert (tmp_path / "globe.html").read_text(encoding="utf-8") == globe.html
     data = data_of(globe.html)
     assert (data["title"], data["name"], data["unit"], data["legend"], data["first"]) == ("Hütte", "height", "m", "height, m", 0)
-    assert np.allclose((doubles(data["lon"]) - lon + 180) % 360, 180, atol=1e-12)
-    assert np.allclose(doubles(data["lat"]), lat, atol=1e-12)
-    assert np.array_equal(doubles(data["areas"]), mesh.cell_areas)
-    assert np.array_equal(doubles(data["numbers"]), values, equal_nan=True)
-    corners = np.frombuffer(base64.b64decode(data["triangles"]), np.uint8).reshape(-1, 3).astype(int)  # all below 128
+    assert np.allclose((np.array(data["lon"]) - lon + 180) % 360, 180, atol=1e-9)
+    assert np.allclose(data["lat"], lat, atol=1e-9)
+    assert np.array_equal(np.array(data["numbers"], float), values, equal_nan=True)
+    corners = np.array(data["triangles"]).reshape(-1, 3)
     corners[:, 0] = np.cumsum(corners[:, 0])
     corners[:, 1:] += corners[:, :1]
     assert np.array_equal(corners, mesh.simplices)
@@ -48,7 +42,7 @@ def test_the_page_has_the_numbers_of_the_mesh(tmp_path):
 
 def test_cells_of_the_boundary_have_no_area():
     mesh = Delaunay([[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]])
-    assert np.array_equal(np.isnan(doubles(data_of(mesh.globe().html)["areas"])), [True, True, True, False])
+    assert data_of(mesh.globe().html)["counts"][-1] == 3
 
 
 def test_notebooks_show_globes_of_meshes_that_are_not_too_large(three):

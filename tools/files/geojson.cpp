@@ -7,12 +7,10 @@
 #include <string_view>
 
 #include "files/nodes.h"
-#include "text_file.h"
+#include "files/text_file.h"
 
 namespace files {
 namespace {
-
-using point_sets::excerpt;
 
 /// What the parser says, without the place, and with an excerpt of the text that it read last.
 std::string reason_of(const Json::parse_error& e) {

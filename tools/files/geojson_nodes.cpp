@@ -11,14 +11,13 @@
 #include "files/geojson.h"
 #include "files/nearest.h"
 #include "files/nodes.h"
+#include "files/text_file.h"
 #include "files/text_table.h"
-#include "text_file.h"
 
 namespace files {
 namespace {
 
 using json = Json;
-using point_sets::excerpt;
 
 std::vector<std::string> names_of(const Columns& columns) {
   std::vector<std::string> names;

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "files/text_file.h"
 #include "numbers.h"
-#include "text_file.h"
 
 namespace files {
 
@@ -61,7 +61,7 @@ inline std::string nearest(const std::string& word, const std::vector<std::strin
 /// "; did you mean WORD?", or nothing.
 inline std::string did_you_mean(const std::string& word, const std::vector<std::string>& words) {
   const std::string best = nearest(word, words);
-  return best.empty() ? "" : "; did you mean " + point_sets::excerpt(best) + "?";
+  return best.empty() ? "" : "; did you mean " + excerpt(best) + "?";
 }
 
 /// The words separated by commas; only the first ones if there are many.
@@ -69,7 +69,7 @@ inline std::string listed(const std::vector<std::string>& words) {
   constexpr std::size_t kMost = 30;
   std::string text;
   for (std::size_t i = 0; i < std::min(words.size(), kMost); ++i)
-    text += (i == 0 ? "" : ", ") + point_sets::excerpt(words[i]);
+    text += (i == 0 ? "" : ", ") + excerpt(words[i]);
   if (words.size() > kMost) text += " and " + std::to_string(words.size() - kMost) + " more";
   return words.empty() ? "none" : text;
 }

@@ -10,15 +10,13 @@
 #include <stdexcept>
 
 #include "files/nearest.h"
+#include "files/text_file.h"
 #include "lists/limits.h"
 #include "numbers.h"
 #include "parallel/local_nodes.h"
-#include "text_file.h"
 
 namespace files {
 namespace {
-
-using point_sets::excerpt;
 
 /// Throws if a file in a classic format, CDF-1, CDF-2 or CDF-5, ends before its last value: libnetcdf takes
 /// what is missing as zeros.

@@ -15,14 +15,13 @@
 #include "files/measures.h"
 #include "files/nearest.h"
 #include "files/netcdf_file.h"
+#include "files/text_file.h"
 #include "files/text_table.h"
 #include "point_sets.h"
-#include "text_file.h"
 
 namespace files {
 namespace {
 
-using point_sets::excerpt;
 using Names = std::vector<std::string>;
 using File = NetcdfFile;
 using Variable = NetcdfVariable;
@@ -186,12 +185,6 @@ Pair lon_lat_of(const File& file, const std::string& value) {
           paths_of(rotated) +
           ": angles of a rotated pole: `cdo setgridtype,curvilinear` adds longitudes and latitudes to the "
           "file; if they are longitudes and latitudes, say --columns LON,LAT");
-    if (file.find("nodeCoords") != nullptr && file.find("elementConn") != nullptr)
-      file.fail(
-          "an ESMF mesh: make a table of its corners, nodeCoords, or of its cells, centerCoords, by `python3 "
-          "-c "
-          "\"import xarray; xarray.open_dataset('IN.nc').nodeCoords.to_pandas().to_csv('OUT.csv', "
-          "header=['lon', 'lat'], index=False)\"`");
     file.fail(
         "no nodes: expected variables xCell, yCell, zCell, or lonCell, latCell, or lon, lat, or others whose "
         "units are degrees_east and degrees_north; or name them by --columns LON,LAT");

@@ -21,7 +21,7 @@
 #include "base/parallel_for.h"
 #include "files/mesh.h"
 #include "files/output_file.h"
-#include "text_file.h"
+#include "files/text_file.h"
 
 namespace files {
 
@@ -237,7 +237,7 @@ class NetcdfWriter {
       throw std::runtime_error(
           fmt::format("{}: column '{}' has a text of {} bytes, and NetCDF stores all texts as long as this, "
                       "{:.0f} MB: leave the column out by --columns, or write CSV or GeoJSON",
-                      name_, point_sets::excerpt(c.name), longest(c), bytes / 1e6));
+                      name_, excerpt(c.name), longest(c), bytes / 1e6));
   }
   static std::size_t longest(const Column& texts) {
     std::size_t most = 1;

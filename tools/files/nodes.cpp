@@ -16,10 +16,10 @@
 
 #include "base/parallel_for.h"
 #include "files/nearest.h"
+#include "files/text_file.h"
 #include "files/text_table.h"
 #include "numbers.h"
 #include "point_sets.h"
-#include "text_file.h"
 
 namespace files {
 namespace {
@@ -112,7 +112,7 @@ std::vector<std::size_t> place_by_names(const std::vector<std::size_t>& candidat
       if (all.size() > 1 && !chosen)
         throw std::runtime_error(
             fmt::format("{}: the header names column '{}' twice, {} and {}: choose columns by number", where,
-                        point_sets::excerpt(layout.name(all[0])), all[0] + 1, all[1] + 1));
+                        excerpt(layout.name(all[0])), all[0] + 1, all[1] + 1));
       if (!all.empty()) found.push_back(all[0]);
     }
     return found;
@@ -122,10 +122,9 @@ std::vector<std::size_t> place_by_names(const std::vector<std::size_t>& candidat
     if (found.size() == 2) return found;
     if (found.size() == 1) {
       const bool has_lon = axis_of(layout.name(found[0])) == 'o';
-      throw std::runtime_error(
-          fmt::format("{}: a column '{}' without a {}: name both by --columns LON,LAT; the header has {}",
-                      where, point_sets::excerpt(layout.name(found[0])), has_lon ? "latitude" : "longitude",
-                      listed(layout.names)));
+      throw std::runtime_error(fmt::format(
+          "{}: a column '{}' without a {}: name both by --columns LON,LAT; the header has {}", where,
+          excerpt(layout.name(found[0])), has_lon ? "latitude" : "longitude", listed(layout.names)));
     }
   }
   if (coordinates == Coordinates::lonlat) return {};
@@ -142,10 +141,6 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
   std::vector<std::size_t> candidates(layout.columns);
   std::iota(candidates.begin(), candidates.end(), std::size_t{0});
   if (chosen) candidates = columns_named(options.columns, layout, file);
-  double number = 0;  // of the column --variable
-  const bool is_number = point_sets::parse(options.variable, number);
-  if (options.variable.find(',') != options.variable.npos)
-    fail(fmt::format("--variable names one column, not '{}'", options.variable));
   Choice choice;
   if (!layout.names.empty())
     choice.place = place_by_names(candidates, layout, options.coordinates, chosen, where);
@@ -156,7 +151,7 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
         fail(fmt::format(
             "no columns named lon and lat, or x, y and z: name them by --columns; the header has {}",
             listed(layout.names)));
-      const bool is_third = number == 3;  // so the first two are lon lat
+      const bool is_third = options.variable == "3";  // so the first two are lon lat
       if (options.may_have_value && !options.with_values && layout.columns == 3)
         fail("has 3 columns: say --coordinates lonlat or xyz");
       const bool has_value = options.with_values || (options.may_have_value && layout.columns > 2);
@@ -188,16 +183,12 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
   if (!options.with_values) return choice;
 
   if (!options.variable.empty()) {
-    if (layout.names.empty() && !is_number)
-      fail(fmt::format("has {} columns; --variable of text is the number of a column, not '{}'",
-                       layout.columns, options.variable));
-    const bool exists = !is_number || (number == std::floor(number) && number >= 1 &&
-                                       number <= static_cast<double>(layout.columns));
-    if (exists) choice.value = columns_named(options.variable, layout, file).at(0);
-    if (!exists || is_place(*choice.value))
-      fail(fmt::format("has {} columns; {}", layout.columns,
-                       exists ? fmt::format("column {} is a coordinate, not a value", options.variable)
-                              : fmt::format("there is no value in column {}", options.variable)));
+    const std::vector<std::size_t> named = columns_named(options.variable, layout, file);
+    if (named.size() != 1) fail(fmt::format("--variable names one column, not '{}'", options.variable));
+    if (is_place(named[0]))
+      fail(
+          fmt::format("column {} is a coordinate, not a value: choose another --variable", options.variable));
+    choice.value = named[0];
   } else if (choice.columns.size() == 1 || (!choice.columns.empty() && (chosen || layout.names.empty()))) {
     choice.value = choice.columns[0];
   } else if (choice.columns.empty()) {
@@ -264,8 +255,8 @@ void read_text(Nodes& nodes, std::string_view text, const ReadOptions& options) 
     of_table.columns.clear();
     for (std::size_t c = 1; c <= widths.size(); ++c)
       of_table.columns += fmt::format("{}{}", c > 1 ? "," : "", c);
-    of_table.text = {'\t', false};
-    return read_text(nodes, with_tabs(text, widths), of_table);
+    of_table.text = {'\t', false, widths};
+    return read_text(nodes, text, of_table);
   }
   const TextLayout layout = layout_of(text, nodes.file, options.text);
   Choice choice = choose(layout, options, nodes.file);
@@ -280,16 +271,8 @@ void read_text(Nodes& nodes, std::string_view text, const ReadOptions& options) 
     choice.place.pop_back();
     choice.columns.push_back(2);
   }
-  if (choice.value) {
-    for (const std::size_t c : choice.place)
-      for (std::size_t i = 0; !options.keep_missing && i < nodes.lines.size(); ++i)
-        if (std::isnan(rows.numbers[c][i]))
-          throw std::runtime_error(
-              fmt::format("{}: {}: its place is 'nan': remove the row, or say --skip-missing", nodes.file,
-                          nodes.place(i)));
-    nodes.value = column_of(rows, layout, *choice.value);
-    if (layout.names.empty()) nodes.value.name.clear();
-  }
+  if (choice.value) nodes.value = column_of(rows, layout, *choice.value);
+  if (layout.names.empty()) nodes.value.name.clear();
   if (options.with_columns) {
     if (!rows.segments.empty()) {
       for (double& s : rows.segments) ++s;
@@ -526,7 +509,7 @@ Nodes read(const std::string& file, const ReadOptions& options) {
       options.container == Container::detected || options.container == Container::netcdf;
   if (may_be_netcdf && file != "-" && is_netcdf(file)) return read_netcdf(file, options);
 
-  const std::string contents = point_sets::contents_of(file);
+  const std::string contents = contents_of(file);
   if (may_be_netcdf && has_magic_of_netcdf(contents)) return read_netcdf(nodes.file, options, contents);
   if (options.container == Container::netcdf) throw std::runtime_error(nodes.file + ": not a NetCDF file");
   if (options.container == Container::raw) {

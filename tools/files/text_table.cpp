@@ -10,22 +10,16 @@
 
 #include "files/columns.h"
 #include "files/nearest.h"
+#include "files/text_file.h"
 #include "numbers.h"
-#include "text_file.h"
 
 namespace files {
 namespace {
-
-using point_sets::excerpt;
 
 constexpr std::string_view kBlanks = " \t\r\f\v";
 
 [[noreturn]] void fail(const std::string& file, std::size_t line, const std::string& what) {
   throw std::runtime_error(fmt::format("{}:{}: {}", file, line, what));
-}
-
-std::string counted(std::size_t n, const char* what) {
-  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
 bool is_space(char c) { return kBlanks.find(c) != kBlanks.npos; }
@@ -49,10 +43,12 @@ std::string lower(std::string_view text) {
 /// Errors of spreadsheets. A line that begins with one is a row, no comment.
 constexpr std::string_view kErrors[] = {"#N/A", "#VALUE!", "#REF!", "#DIV/0!", "#NUM!", "#NAME?", "#NULL!"};
 std::string_view error_at(std::string_view text) {
-  for (const std::string_view error : kErrors)
-    if (text.substr(0, error.size()) == error) return error;
+  if (text.substr(0, 1) == "#")
+    for (const std::string_view error : kErrors)
+      if (text.substr(0, error.size()) == error) return error;
   return {};
 }
+bool is_comment(std::string_view content) { return begins_comment(content[0]) && error_at(content).empty(); }
 
 bool is_missing(std::string_view word) {
   if (!word.empty() && error_at(word) == word) return true;
@@ -114,81 +110,45 @@ std::string_view take_line(std::string_view& text) {
   return line;
 }
 
-class Cells {
- public:
-  Cells(std::string_view line, char separator, bool has_quotes = true)
-      : at_(line.data()), end_(at_ + line.size()), separator_(separator), has_quotes_(has_quotes) {
-    if (separator_ == ' ') skip_blanks();
-    more_ = separator_ == ' ' ? begins_cell() : true;
-  }
-  bool more() const { return more_; }
+using Cells = std::vector<std::string_view>;
 
-  /// Reads a plain decimal number, which most cells are; false for anything else.
-  bool number(double& value) {
-    skip_spaces();
-    const auto [stop, error] = point_sets::parse_beginning(at_, end_, value);
-    if (error != std::errc() || !std::isfinite(value)) return false;
-    const char* p = stop;
-    if (separator_ == ' ') {
-      if (p != end_ && !ends_word(*p)) return false;
-    } else {
-      while (p != end_ && *p != separator_ && is_space(*p)) ++p;
-      if (p != end_ && *p != separator_) return false;
+/// Sets the cells of a line, without their quotes. False if a closing quote is missing.
+bool split(std::string_view line, const TextFormat& format, Cells& cells) {
+  cells.clear();
+  for (const auto& [first, last] : format.widths)
+    cells.push_back(trimmed(line.substr(std::min(first - 1, line.size()), last - first + 1)));
+  if (!format.widths.empty()) return true;
+  const bool by_blanks = format.separator == ' ';
+  for (bool more = true; more;) {
+    const auto begins = [&](char c) {
+      return by_blanks ? !is_blank(c) : c == format.separator || !is_space(c);
+    };
+    const auto ends = [&](char c) { return by_blanks ? ends_word(c) : c == format.separator; };
+    line.remove_prefix(
+        static_cast<std::size_t>(std::find_if(line.begin(), line.end(), begins) - line.begin()));
+    if (by_blanks && (line.empty() || is_comment(line))) break;
+    const bool is_quoted = format.has_quotes && !line.empty() && line[0] == '"';
+    std::size_t end = is_quoted ? 1 : by_blanks ? error_at(line).size() : 0;
+    if (is_quoted) {
+      while (end < line.size() && (line[end] != '"' || line.substr(end, 2) == "\"\""))
+        end += line[end] == '"' ? 2 : 1;
+      if (end >= line.size()) return false;
+      cells.push_back(line.substr(1, end - 1));
+      ++end;
     }
-    leave(p);
-    return true;
+    if (!is_quoted || !by_blanks)
+      end = static_cast<std::size_t>(
+          std::find_if(line.begin() + static_cast<std::ptrdiff_t>(end), line.end(), ends) - line.begin());
+    if (!is_quoted) cells.push_back(trimmed(line.substr(0, end)));
+    more = by_blanks || end < line.size();
+    line.remove_prefix(std::min(end + (by_blanks ? 0 : 1), line.size()));
   }
-
-  /// Reads the cell and removes its quotes. False if a closing quote is missing.
-  bool word(std::string_view& word) {
-    skip_spaces();
-    if (has_quotes_ && at_ != end_ && *at_ == '"') {
-      const char* p = at_ + 1;
-      while (p != end_ && (*p != '"' || (p + 1 != end_ && p[1] == '"'))) p += *p == '"' ? 2 : 1;
-      if (p == end_) return false;
-      word = {at_ + 1, static_cast<std::size_t>(p - at_ - 1)};
-      ++p;
-      while (p != end_ && separator_ != ' ' && *p != separator_) ++p;
-      leave(p);
-      return true;
-    }
-    const char* p = at_ + (separator_ == ' ' ? length_of_error() : 0);
-    while (p != end_ && (separator_ == ' ' ? !ends_word(*p) : *p != separator_)) ++p;
-    word = {at_, static_cast<std::size_t>(p - at_)};
-    while (!word.empty() && is_space(word.back())) word.remove_suffix(1);
-    leave(p);
-    return true;
-  }
-
- private:
-  std::size_t length_of_error() const { return error_at({at_, static_cast<std::size_t>(end_ - at_)}).size(); }
-  bool begins_cell() const { return at_ != end_ && (!begins_comment(*at_) || length_of_error() > 0); }
-  void skip_blanks() {
-    while (at_ != end_ && is_blank(*at_)) ++at_;
-  }
-  void skip_spaces() {
-    while (at_ != end_ && *at_ != separator_ && is_space(*at_)) ++at_;
-  }
-  void leave(const char* p) {
-    at_ = p;
-    if (separator_ == ' ') {
-      skip_blanks();
-      more_ = begins_cell();
-    } else {
-      more_ = at_ != end_;
-      if (more_) ++at_;
-    }
-  }
-  const char *at_, *end_;
-  char separator_;
-  bool has_quotes_, more_ = false;
-};
-
-std::vector<std::string> split(std::string_view line, char separator, bool has_quotes = true) {
-  std::vector<std::string> words;
-  std::string_view word;
-  for (Cells cells(line, separator, has_quotes); cells.more() && cells.word(word);) words.emplace_back(word);
-  return words;
+  return true;
+}
+Cells split(std::string_view line, const TextFormat& format) {
+  Cells cells;
+  split(line, format, cells);
+  return cells;
 }
 
 /// Replaces "" in a quoted cell by ".
@@ -201,20 +161,23 @@ std::string without_doubled_quotes(std::string_view text) {
   return result;
 }
 
-/// Removes a comment behind the numbers of a row.
-std::string_view without_comment(std::string_view line) {
+/// The place of the first of these characters outside of quotes.
+std::size_t find_unquoted(std::string_view line, std::string_view characters) {
   bool quoted = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (line[i] == '"') quoted = !quoted;
-    if (!quoted && (line[i] == '#' || line[i] == '!')) return line.substr(0, i);
+    if (!quoted && characters.find(line[i]) != characters.npos) return i;
   }
-  return line;
+  return line.npos;
 }
 
-bool is_header(const std::vector<std::string>& cells) {
+/// Removes a comment behind the numbers of a row.
+std::string_view without_comment(std::string_view line) { return line.substr(0, find_unquoted(line, "#!")); }
+
+bool is_header(const Cells& cells) {
   bool has_word = false;
   double value;
-  for (const std::string& cell : cells) {
+  for (const std::string_view cell : cells) {
     if (is_number(cell, value) || has_hemisphere(cell) || lower(cell) == "nan") return false;
     has_word = has_word || (!cell.empty() && std::strchr("+-.0123456789", cell[0]) == nullptr);
   }
@@ -225,38 +188,35 @@ bool is_header(const std::vector<std::string>& cells) {
 /// Otherwise a tab counts as a blank.
 bool is_separated_by_tabs(std::string_view line) {
   if (line.find('\t') == line.npos) return false;
-  const std::vector<std::string> cells = split(line, '\t');
+  const Cells cells = split(line, {'\t'});
   double value;
-  for (const std::string& cell : cells) {
+  for (const std::string_view cell : cells) {
     if (cell.empty()) return false;
-    const std::vector<std::string> words = split(cell, ' ');
+    const Cells words = split(cell, {' '});
     if (words.size() > 1 && is_number(words[0], value) && is_number(words[1], value)) return false;
   }
-  return is_header(cells) || split(line, ' ').size() != cells.size();
+  return is_header(cells) || split(line, {' '}).size() != cells.size();
 }
 
-char separator_of(std::string_view line) {
-  bool quoted = false;
-  bool comma = false;
-  for (const char c : line) {
-    if (c == '"') quoted = !quoted;
-    if (quoted) continue;
-    if (c == ';') return ';';
-    comma = comma || c == ',';
-  }
-  if (is_separated_by_tabs(line)) return '\t';
-  return comma ? ',' : ' ';
+/// The format with the separator of this line, if the caller has not said it.
+TextFormat format_of(std::string_view line, TextFormat format) {
+  if (format.separator != '\0') return format;
+  format.separator = find_unquoted(line, ";") != line.npos   ? ';'
+                     : is_separated_by_tabs(line)            ? '\t'
+                     : find_unquoted(line, ",") != line.npos ? ','
+                                                             : ' ';
+  return format;
 }
 
 /// Sets names and units from the header. In text separated by blanks a unit is a word of its own.
-void set_names(TextLayout& layout, const std::vector<std::string>& cells) {
+void set_names(TextLayout& layout, const Cells& cells) {
   layout.names.clear();
   layout.units.clear();
   const auto is_unit = [](std::string_view w) {
     return w.size() > 1 && ((w.front() == '[' && w.back() == ']') || (w.front() == '(' && w.back() == ')'));
   };
-  for (const std::string& cell : cells) {
-    if (layout.separator == ' ' && is_unit(cell) && !layout.names.empty()) {
+  for (const std::string_view cell : cells) {
+    if (layout.format.separator == ' ' && is_unit(cell) && !layout.names.empty()) {
       layout.units.back() = cell.substr(1, cell.size() - 2);
       continue;
     }
@@ -288,122 +248,31 @@ const char* name_of(char separator) {
 
 /// The reason why a line has too few or too many columns, for the message.
 std::string of_other_count(std::string_view line, std::size_t found, const TextLayout& layout) {
-  const bool has_none = layout.separator == ' ' || line.find(layout.separator) == line.npos;
+  const char separator = layout.format.separator;
+  const bool has_none = separator == ' ' || line.find(separator) == line.npos;
   for (const char other : {';', '\t', ',', ' '})
-    if (has_none && other != layout.separator && split(line, other).size() == layout.columns)
+    if (has_none && other != separator && split(line, {other}).size() == layout.columns)
       return fmt::format("separated by {}, the lines before by {}: use one separator", name_of(other),
-                         name_of(layout.separator));
+                         name_of(separator));
   const bool commas_split_numbers =
-      layout.separator == ' ' && found == 2 * layout.columns &&
+      separator == ' ' && found == 2 * layout.columns &&
       static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) == layout.columns;
   return fmt::format(
-      "found {} where the {} {}: {}", counted(found, layout.names.empty() ? "number" : "column"),
-      layout.header_line > 0 ? "header has" : "lines before have", layout.columns,
+      "found {} {}{} where the {} {}: {}", found, layout.names.empty() ? "number" : "column",
+      found == 1 ? "" : "s", layout.header_line > 0 ? "header has" : "lines before have", layout.columns,
       commas_split_numbers ? "write a decimal comma as a point" : "complete the row, or remove it");
 }
 
-class Reader {
- public:
-  Reader(const TextLayout& layout, const std::vector<Role>& roles, const std::string& file)
-      : layout_(layout),
-        roles_(roles),
-        file_(file),
-        nan_in_places_(std::find(roles.begin(), roles.end(), Role::value) != roles.end()),
-        line_(layout.line - 1),
-        has_words_(layout.columns) {
-    rows_.numbers.resize(layout.columns);
-    rows_.texts.resize(layout.columns);
-  }
-
-  TextRows read(std::string_view text) {
-    while (!text.empty()) {
-      std::string_view line = take_line(text);
-      ++line_;
-      if (is_row(line)) read_row(line);
-    }
-    if (layout_.line_of_count > 0 && layout_.count != rows_.lines.size())
-      fail(file_, layout_.line_of_count,
-           fmt::format(
-               "a single number is the count of the points that follow; there are {}: correct or remove it",
-               rows_.lines.size()));
-    if (segments_ == 0) rows_.segments.clear();
-    for (std::size_t c = 0; c < layout_.columns; ++c)
-      if (has_words_[c]) rows_.numbers[c].clear();
-    return std::move(rows_);
-  }
-
- private:
-  /// Removes comments. False if nothing remains.
-  bool is_row(std::string_view& line) {
-    std::size_t begin = 0;
-    while (begin < line.size() && is_space(line[begin])) ++begin;
-    if (begin == line.size()) return false;
-    if (begins_comment(line[begin]) && error_at(line.substr(begin)).empty()) return false;
-    if (line[begin] == '>') {
-      ++segments_;
-      return false;
-    }
-    if (layout_.header_line == 0 && layout_.has_quotes && layout_.separator != ' ' &&
-        error_at(line.substr(begin)).empty())
-      line = without_comment(line);
-    return true;
-  }
-
-  void read_row(std::string_view line) {
-    Cells cells(line, layout_.separator, layout_.has_quotes);
-    std::size_t c = 0;
-    std::string_view word;
-    for (; cells.more(); ++c) {
-      const Role role = c < roles_.size() ? roles_[c] : Role::skipped;
-      double value = kMissing;
-      if (role == Role::skipped || role == Role::carried || !cells.number(value)) {
-        if (!cells.word(word))
-          fail(file_, line_, "a double quote without an end: add it, or say --quote none");
-        if (role == Role::carried) {
-          rows_.texts[c].push_back(layout_.has_quotes ? without_doubled_quotes(word) : std::string(word));
-          if (!has_words_[c]) has_words_[c] = is_name_of_digits(word);
-        }
-        if (role != Role::skipped && (has_words_[c] || !is_number(word, value))) {
-          value = kMissing;
-          if (const std::string wrong = why_not(word, c, role); !wrong.empty()) {
-            // Look for another separator before blaming a word.
-            const std::string other = of_other_count(line, 0, layout_);
-            fail(file_, line_, other.rfind("separated", 0) == 0 && layout_.columns > 1 ? other : wrong);
-          }
-          if (role == Role::carried && !is_missing(word)) has_words_[c] = true;
-        }
-      }
-      if (role != Role::skipped) rows_.numbers[c].push_back(value);
-    }
-    if (c == 0) return;
-    if (c != layout_.columns) fail(file_, line_, of_other_count(line, c, layout_));
-    rows_.lines.push_back(line_);
-    rows_.segments.push_back(segments_);
-  }
-
-  /// Why the word is not allowed in the column; empty: it is.
-  std::string why_not(std::string_view word, std::size_t column, Role role) const {
-    if (role == Role::carried) return "";
-    const std::string l = lower(word);
-    if (role == Role::value ? is_missing(word) : nan_in_places_ && l == "nan") return "";
-    const std::string name =
-        layout_.names.empty() ? "" : fmt::format(" in column '{}'", excerpt(layout_.name(column)));
-    if (word.empty())
-      return fmt::format("nothing{}: remove the row, say --skip-missing, or choose other --columns",
-                         name.empty() ? " between separators" : name);
-    if (!name.empty() && l == lower(layout_.names[column])) return "the header line again: remove it";
-    return fmt::format("'{}'{} is not a finite number{}", excerpt(word), name, remedy_for(word));
-  }
-
-  const TextLayout& layout_;
-  const std::vector<Role>& roles_;
-  const std::string& file_;
-  const bool nan_in_places_;
-  std::size_t line_;
-  double segments_ = 0;
-  std::vector<bool> has_words_;  ///< of each column: a word in it is not a number
-  TextRows rows_;
-};
+/// Why the word is not allowed in the column.
+std::string why_not(std::string_view word, std::size_t column, const TextLayout& layout) {
+  const std::string name =
+      layout.names.empty() ? "" : fmt::format(" in column '{}'", excerpt(layout.name(column)));
+  if (word.empty())
+    return fmt::format("nothing{}: remove the row, say --skip-missing, or choose other --columns",
+                       name.empty() ? " between separators" : name);
+  if (!name.empty() && lower(word) == lower(layout.names[column])) return "the header line again: remove it";
+  return fmt::format("'{}'{} is not a finite number{}", excerpt(word), name, remedy_for(word));
+}
 
 }  // namespace
 
@@ -434,31 +303,16 @@ std::vector<std::pair<std::size_t, std::size_t>> fixed_widths(const std::string&
   return widths;
 }
 
-std::string with_tabs(std::string_view text, const std::vector<std::pair<std::size_t, std::size_t>>& widths) {
-  std::string table;
-  for (; !text.empty(); table += '\n') {
-    const std::string_view line = take_line(text);
-    if (trimmed(line).empty()) continue;
-    for (std::size_t k = 0; k < widths.size(); ++k) {
-      const auto [first, last] = widths[k];
-      if (k > 0) table += '\t';
-      for (const char c : trimmed(line.substr(std::min(first - 1, line.size()), last - first + 1)))
-        table += c == '\t' ? ' ' : c;
-    }
-  }
-  return table;
-}
-
 namespace {
 
 /// True if the next line with a content is a header line that names coordinates.
 bool is_before_header(std::string_view text, const TextFormat& format) {
   while (!text.empty()) {
-    const std::string_view line = trimmed(take_line(text));
-    if (line.empty()) continue;
+    const std::string_view line = take_line(text), content = trimmed(line);
+    if (content.empty()) continue;
     TextLayout layout;
-    layout.separator = format.separator != '\0' ? format.separator : separator_of(line);
-    const std::vector<std::string> cells = split(line, layout.separator, format.has_quotes);
+    layout.format = format_of(content, format);
+    const Cells cells = split(format.widths.empty() ? content : line, layout.format);
     if (!is_header(cells)) return false;
     set_names(layout, cells);
     return has_place(layout.names);
@@ -470,10 +324,6 @@ bool is_before_header(std::string_view text, const TextFormat& format) {
 
 TextLayout layout_of(std::string_view text, const std::string& file, const TextFormat& format) {
   TextLayout layout;
-  layout.has_quotes = format.has_quotes;
-  const auto separator_in = [&](std::string_view line) {
-    return format.separator != '\0' ? format.separator : separator_of(line);
-  };
   const std::size_t mark = text.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0;
   if (text.find('\n') == text.npos && trimmed(text).find('\r') != text.npos)
     fail(file, 1, "lines end with CR alone: end them with LF, for example by `tr '\\r' '\\n'`");
@@ -481,15 +331,16 @@ TextLayout layout_of(std::string_view text, const std::string& file, const TextF
   bool has_row = false;
   for (std::size_t number = 1; !has_row && !rest.empty(); ++number) {
     const std::string_view line = take_line(rest), content = trimmed(line);
+    const std::string_view whole = format.widths.empty() ? content : line;
     if (content.empty() || content[0] == '>') continue;
-    if (begins_comment(content[0]) && error_at(content).empty()) {
+    if (is_comment(content)) {
       comment = content.substr(1);
       continue;
     }
-    const bool is_whole = layout.header_line > 0 || !layout.has_quotes || !error_at(content).empty();
-    const std::string_view plain = is_whole ? content : trimmed(without_comment(content));
-    if (layout.header_line == 0) layout.separator = separator_in(plain);
-    const std::vector<std::string> cells = split(plain, layout.separator, layout.has_quotes);
+    const bool is_whole = layout.header_line > 0 || !format.has_quotes || !error_at(content).empty();
+    const std::string_view plain = is_whole ? whole : trimmed(without_comment(content));
+    if (layout.header_line == 0) layout.format = format_of(plain, format);
+    const Cells cells = split(plain, layout.format);
     double n = 0;
     if (!cells.empty() && !is_number(cells[0], n) && !has_place(layout.names) &&
         is_before_header(rest, format)) {  // a title
@@ -504,8 +355,8 @@ TextLayout layout_of(std::string_view text, const std::string& file, const TextF
                  layout.header_line));
       layout.header_line = number;
       // The names in a header may contain #.
-      layout.separator = separator_in(content);
-      set_names(layout, split(content, layout.separator, layout.has_quotes));
+      layout.format = format_of(content, format);
+      set_names(layout, split(whole, layout.format));
       continue;
     }
     if (layout.header_line == 0 && layout.line_of_count == 0 && cells.size() == 1 && is_number(cells[0], n) &&
@@ -525,11 +376,11 @@ TextLayout layout_of(std::string_view text, const std::string& file, const TextF
     throw std::runtime_error(file + ": no points: expected lines 'lon lat' or 'x y z'");
   }
   if (layout.header_line == 0 && !comment.empty()) {
-    const char separator = layout.separator;
-    if (layout.separator == ' ' || split(comment, layout.separator).size() != layout.columns)
-      layout.separator = ' ';
-    set_names(layout, split(comment, layout.separator));
-    layout.separator = separator;
+    const TextFormat of_rows = layout.format;
+    layout.format = {of_rows.separator};
+    if (split(comment, layout.format).size() != layout.columns) layout.format = {' '};
+    set_names(layout, split(comment, layout.format));
+    layout.format = of_rows;
     if (layout.names.size() != layout.columns || !has_place(layout.names))
       layout.names.clear(), layout.units.clear();
   }
@@ -538,7 +389,62 @@ TextLayout layout_of(std::string_view text, const std::string& file, const TextF
 
 TextRows rows_of(std::string_view text, const std::string& file, const TextLayout& layout,
                  const std::vector<Role>& roles) {
-  return Reader(layout, roles, file).read(text.substr(layout.begin));
+  const bool has_comments =
+      layout.header_line == 0 && layout.format.has_quotes && layout.format.separator != ' ';
+  std::vector<bool> has_words(layout.columns);  // of each column: a word in it is not a number
+  TextRows rows;
+  rows.numbers.resize(layout.columns);
+  rows.texts.resize(layout.columns);
+  Cells cells;
+  std::size_t number = layout.line - 1;
+  double segments = 0;
+  for (text.remove_prefix(layout.begin); !text.empty();) {
+    std::string_view line = take_line(text);
+    const std::string_view content = trimmed(line);
+    ++number;
+    if (content.empty() || is_comment(content)) continue;
+    if (content[0] == '>') {
+      ++segments;
+      continue;
+    }
+    if (has_comments && error_at(content).empty()) line = without_comment(line);
+    if (!split(line, layout.format, cells))
+      fail(file, number, "a double quote without an end: add it, or say --quote none");
+    if (cells.empty()) continue;
+    for (std::size_t c = 0; c < std::min(cells.size(), layout.columns); ++c) {
+      const Role role = roles[c];
+      const std::string_view word = cells[c];
+      if (role == Role::skipped) continue;
+      if (role == Role::carried) {
+        rows.texts[c].push_back(layout.format.has_quotes ? without_doubled_quotes(word) : std::string(word));
+        if (!has_words[c]) has_words[c] = is_name_of_digits(word);
+      }
+      double value = kMissing;
+      if (has_words[c] || !is_number(word, value)) {
+        value = kMissing;
+        if (role == Role::place || (role == Role::value && !is_missing(word))) {
+          // Look for another separator before blaming a word.
+          const std::string other = of_other_count(line, 0, layout);
+          fail(file, number,
+               other.rfind("separated", 0) == 0 && layout.columns > 1 ? other : why_not(word, c, layout));
+        }
+        if (!is_missing(word)) has_words[c] = true;
+      }
+      rows.numbers[c].push_back(value);
+    }
+    if (cells.size() != layout.columns) fail(file, number, of_other_count(line, cells.size(), layout));
+    rows.lines.push_back(number);
+    rows.segments.push_back(segments);
+  }
+  if (layout.line_of_count > 0 && layout.count != rows.lines.size())
+    fail(file, layout.line_of_count,
+         fmt::format(
+             "a single number is the count of the points that follow; there are {}: correct or remove it",
+             rows.lines.size()));
+  if (segments == 0) rows.segments.clear();
+  for (std::size_t c = 0; c < layout.columns; ++c)
+    if (has_words[c]) rows.numbers[c].clear();
+  return rows;
 }
 
 std::vector<std::size_t> columns_named(const std::string& wanted, const TextLayout& layout,

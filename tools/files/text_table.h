@@ -10,12 +10,20 @@
 
 namespace files {
 
+/// How a line is divided into cells.
+struct TextFormat {
+  /// `,`, `;` or tab: exactly one between columns; cells may be empty or in double quotes. Blank: any number
+  /// of blanks, tabs and commas between columns. 0: that of the first line.
+  char separator = '\0';
+  /// If not, a double quote is a character like others, and so are # and ! behind the first of a line.
+  bool has_quotes = true;
+  /// First and last bytes of columns of fixed widths, from 1; empty: separators divide lines.
+  std::vector<std::pair<std::size_t, std::size_t>> widths = {};
+};
+
 /// The format of a text, found from its first lines.
 struct TextLayout {
-  /// `,`, `;` or tab: exactly one between columns; cells may be empty or in double quotes. Blank: any number
-  /// of blanks, tabs and commas between columns.
-  char separator = ' ';
-  bool has_quotes = true;
+  TextFormat format = {};
   std::size_t columns = 0;
   std::vector<std::string> names;   ///< of the columns; empty: no header
   std::vector<std::string> units;   ///< of the columns: "depth [km]", "depth (km)"; as many as names
@@ -27,13 +35,6 @@ struct TextLayout {
   std::string name(std::size_t column) const;  ///< "mag", or "column3" where columns have no names
 };
 
-/// What the caller says of the format: the separator, or 0, and that a double quote is a character like
-/// others, as # and ! behind the first of a line then are.
-struct TextFormat {
-  char separator = '\0';
-  bool has_quotes = true;
-};
-
 /// Comments begin with #, % or ! at the start of a line, or with # or ! behind numbers if there is no header
 /// line or blanks separate the columns. The comment before the first row can hold the names of columns, if
 /// lon and lat, or x, y and z, are among them. A line before a header line that has them is a title. Throws
@@ -43,8 +44,6 @@ TextLayout layout_of(std::string_view text, const std::string& file, const TextF
 /// Columns of a text of fixed widths, by their first and last bytes, from 1: "1-11,13-20". Empty: `columns`
 /// is something else.
 std::vector<std::pair<std::size_t, std::size_t>> fixed_widths(const std::string& columns);
-/// These columns of each line, separated by tabs.
-std::string with_tabs(std::string_view text, const std::vector<std::pair<std::size_t, std::size_t>>& widths);
 
 /// What a column is used for. `place`: a coordinate, a finite number. `value`: a number or missing.
 /// `carried`: copied to the output, a number, missing or text. Digits that say more than their number are
@@ -58,8 +57,7 @@ struct TextRows {
   std::vector<double> segments;  ///< number of `>` lines before each row; empty: there are no such lines
 };
 
-/// Reads the rows. If there is a value column, coordinates may be NaN: the caller then
-/// reports the node.
+/// Reads the rows.
 TextRows rows_of(std::string_view text, const std::string& file, const TextLayout& layout,
                  const std::vector<Role>& roles);
 

@@ -8,8 +8,8 @@
 
 #include "files/geojson.h"
 #include "files/measures.h"
+#include "files/text_file.h"
 #include "numbers.h"
-#include "text_file.h"
 
 namespace files {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 class Reader {
  public:
   explicit Reader(std::string file) : file_(std::move(file)) {
-    read_features(point_sets::contents_of(file_), file_, "polygons", {"Polygon", "MultiPolygon"},
+    read_features(contents_of(file_), file_, "polygons", {"Polygon", "MultiPolygon"},
                   [&](const Json& feature, std::size_t number) { add(feature, number); });
     if (features.empty()) throw std::runtime_error(file_ + ": no polygons: there are no features");
   }
@@ -48,7 +48,7 @@ class Reader {
     const std::string type =
         geometry != feature.end() && geometry->is_object() ? text_of(*geometry, "type") : "";
     if (type != "Polygon" && type != "MultiPolygon")
-      fail(fmt::format("'{}' is not a Polygon or MultiPolygon", point_sets::excerpt(type)));
+      fail(fmt::format("'{}' is not a Polygon or MultiPolygon", excerpt(type)));
     const auto coordinates = geometry->find("coordinates");
     if (coordinates == geometry->end() || !coordinates->is_array()) fail("its geometry has no coordinates");
     Feature& added = features.emplace_back();

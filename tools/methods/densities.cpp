@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "files/nearest.h"
+#include "files/text_file.h"
 #include "methods/grid_values.h"
 #include "methods/triangulated_nodes.h"
 #include "point_sets.h"
-#include "text_file.h"
 
 namespace methods {
 namespace {
@@ -27,7 +27,7 @@ std::unique_ptr<Density> density_of(const std::string& formula) {
   if (formula == "constant") return std::make_unique<pstripack::scvt::ConstantDensity>();
   std::vector<double> v{0, 30, 30, 10, 3};
   const auto fail = [&](const char* what) {
-    throw std::invalid_argument("density '" + point_sets::excerpt(formula) + "': " + what);
+    throw std::invalid_argument("density '" + files::excerpt(formula) + "': " + what);
   };
   if (formula.rfind("bump", 0) != 0 || (formula.size() > 4 && formula[4] != ':'))
     fail("expected constant, bump or bump:LON,LAT,RADIUS,WIDTH,RATIO");

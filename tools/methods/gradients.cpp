@@ -86,11 +86,9 @@ void two_rings(const pstripack::ListReader<std::int32_t>& reader, std::int32_t n
 
 std::vector<pstripack::UnitVector> unit_vectors_of(const Triangulated& mesh) {
   std::vector<pstripack::UnitVector> unit(mesh.lists.n);
-  pstripack::parallel_pieces(unit.size(), pstripack::threads_for(unit.size()),
-                             [&](std::size_t first, std::size_t last, int) {
-                               for (std::size_t i = first; i < last; ++i)
-                                 unit[i] = pstripack::unit_vector(mesh.at(static_cast<std::int32_t>(i) + 1));
-                             });
+  pstripack::parallel_for(unit.size(), unit.size(), [&](std::size_t i) {
+    unit[i] = pstripack::unit_vector(mesh.at(static_cast<std::int32_t>(i) + 1));
+  });
   return unit;
 }
 
@@ -123,7 +121,7 @@ class Fit {
       quadratic_.add(quadratic(at), at.weight);
       linear_.add(linear(at), at.weight);
     }
-    if (find_curve()) return;
+    if (find_line()) return;
     kind_ = rings_.size() > 5 && quadratic_.factor() ? Kind::quadratic : Kind::linear;
     if (kind_ == Kind::linear) linear_.factor();
   }
@@ -142,8 +140,11 @@ class Fit {
       const auto x = linear_.solve(sums<2>(linear, excess));
       u = x[0], v = x[1];
     } else {
-      const double slope = along(excess) / (1 + turn_ * turn_);
-      u = slope * (axis_[0] - turn_ * axis_[1]), v = slope * (axis_[1] + turn_ * axis_[0]);
+      const double slope =
+          kind_ == Kind::parabola
+              ? on_line_.solve(sums<2>(parabola, excess))[0]
+              : sums<1>([](const Place& p) { return std::array{p.along}; }, excess)[0] / spread_;
+      u = slope * axis_[0], v = slope * axis_[1];
     }
     u /= scale_, v /= scale_;
     return {u * tangent_[0].x + v * tangent_[1].x, u * tangent_[0].y + v * tangent_[1].y,
@@ -151,17 +152,16 @@ class Fit {
   }
 
  private:
-  enum class Kind { curve, line, linear, quadratic };
+  enum class Kind { line, parabola, linear, quadratic };
   struct Place {
     double u, v, weight;
-    double arc = 1;  // of nodes on a curve, which may be far away: length of the arc over its sine
+    double along = 0;  // of nodes on a line
   };
   static std::array<double, 5> quadratic(const Place& p) {
     return {p.u, p.v, p.u * p.u, p.u * p.v, p.v * p.v};
   }
   static std::array<double, 2> linear(const Place& p) { return {p.u, p.v}; }
-  double along_axis(const Place& p) const { return p.arc * (axis_[0] * p.u + axis_[1] * p.v); }
-  double across_axis(const Place& p) const { return p.arc * (axis_[0] * p.v - axis_[1] * p.u); }
+  static std::array<double, 2> parabola(const Place& p) { return {p.along, p.along * p.along}; }
 
   template <int K, class Functions, class Value>
   std::array<double, K> sums(const Functions& functions, const Value& value) const {
@@ -173,56 +173,30 @@ class Fit {
     return right;
   }
 
-  /// The slope along the axis of the line or parabola that fits value(k) best.
-  template <class Value>
-  double along(const Value& value, double* bend = nullptr) const {
-    if (bend != nullptr) *bend = 0;
-    if (kind_ == Kind::line) {
-      const auto one = sums<1>([&](const Place& p) { return std::array{along_axis(p)}; }, value);
-      return one[0] / spread_;
-    }
-    const auto x = on_curve_.solve(sums<2>([&](const Place& p) { return parabola(p); }, value));
-    if (bend != nullptr) *bend = x[1];
-    return x[0];
-  }
-  std::array<double, 2> parabola(const Place& p) const {
-    const double t = along_axis(p);
-    return {t, t * t};
-  }
-
-  /// True if the nodes lie on a curve through the node, across = turn * along + bend * along^2 in the
-  /// principal axes, up to 3e-5 of their distances. What they do not determine is the slope across it.
-  bool find_curve() {
-    constexpr double kMostAcross = 1e-9;  // squared, relative
+  /// True if the nodes lie on a great circle through the node, up to 1e-4 of their distances: they do not
+  /// determine the slope across it.
+  bool find_line() {
+    constexpr double kMostAcross = 1e-8;  // squared, relative
     double uu = 0, uv = 0, vv = 0, across = 0;
     for (const Place& p : places_)
       uu += p.weight * p.u * p.u, uv += p.weight * p.u * p.v, vv += p.weight * p.v * p.v;
+    if ((uu + vv) / 2 - std::hypot((uu - vv) / 2, uv) > 1e-3 * (uu + vv)) return false;
     const double angle = 0.5 * std::atan2(2 * uv, uu - vv);
     axis_ = {std::cos(angle), std::sin(angle)};
     spread_ = 0;
-    for (const Place& p : places_) {
-      spread_ += p.weight * along_axis(p) * along_axis(p);
-      across += p.weight * across_axis(p) * across_axis(p);
-    }
-    if (across > 0.1 * spread_) return false;
-    spread_ = 0;
+    on_line_ = {};
     for (std::size_t k = 0; k < places_.size(); ++k) {
       Place& p = places_[k];
-      const double sine = scale_ * std::sqrt(p.u * p.u + p.v * p.v);
-      if (sine > 1e-4) p.arc = 2 * std::asin(std::min(1.0, std::sqrt(dot(sides_[k], sides_[k])) / 2)) / sine;
-      spread_ += p.weight * along_axis(p) * along_axis(p);
+      const double off = axis_[0] * p.v - axis_[1] * p.u, sine = scale_ * std::hypot(p.u, p.v);
+      p.along = axis_[0] * p.u + axis_[1] * p.v;
+      // The length of the arc to a node that may be far away.
+      if (sine > 1e-4) p.along *= 2 * std::asin(std::min(1.0, files::length(sides_[k]) / 2)) / sine;
+      across += p.weight * off * off;
+      spread_ += p.weight * p.along * p.along;
+      on_line_.add(parabola(p), p.weight);
     }
-    on_curve_ = {};
-    for (const Place& p : places_) on_curve_.add(parabola(p), p.weight);
-    kind_ = places_.size() > 3 && on_curve_.factor() ? Kind::curve : Kind::line;
-    double bend;
-    turn_ = along([&](std::size_t k) { return across_axis(places_[k]); }, &bend);
-    double beside = 0;
-    for (const Place& p : places_) {
-      const double t = along_axis(p), d = across_axis(p) - t * (turn_ + t * bend);
-      beside += p.weight * d * d;
-    }
-    return beside <= kMostAcross * spread_;
+    kind_ = places_.size() > 3 && on_line_.factor() ? Kind::parabola : Kind::line;
+    return across <= kMostAcross * spread_;
   }
 
   const Triangulated& mesh_;
@@ -234,9 +208,9 @@ class Fit {
   double scale_ = 1;
   Kind kind_ = Kind::linear;
   LeastSquares<5> quadratic_;
-  LeastSquares<2> linear_, on_curve_;
+  LeastSquares<2> linear_, on_line_;
   std::array<double, 2> axis_{};  // principal axis of the places
-  double spread_ = 0, turn_ = 0;  // along it
+  double spread_ = 0;             // along it
 };
 
 /// Calls use(node, fit) for all nodes, from 1, on threads.

@@ -529,14 +529,12 @@ files::Weights Interpolation::weights_at(const std::vector<Point>& places, Metho
 Interpolation::Nearest Interpolation::nearest_at(const std::vector<Point>& places) const {
   Nearest found{std::vector<std::int32_t>(places.size()), std::vector<double>(places.size())};
   const std::vector<std::uint32_t> order = along_a_curve(places);
-  for_each_block(places.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-    std::int32_t near = 1;
-    for (std::size_t k = begin; k < end; ++k) {
-      const std::size_t i = order[k];
-      found.node[i] = near = nearest(places[i], near);
-      found.distance[i] = arc_length(mesh_.direction(near), pstripack::direction_of(places[i]));
-    }
-  });
+  for_each_place(
+      places, order, Method::nearest, Outside::nearest, [&](std::size_t k, const std::vector<Share>& shares) {
+        const std::size_t i = order[k];
+        found.node[i] = shares[0].node;
+        found.distance[i] = arc_length(mesh_.direction(found.node[i]), pstripack::direction_of(places[i]));
+      });
   return found;
 }
 

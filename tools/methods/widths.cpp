@@ -12,10 +12,10 @@
 #include <utility>
 
 #include "files/nearest.h"
+#include "files/text_file.h"
 #include "methods/densities.h"
 #include "numbers.h"
 #include "point_sets.h"
-#include "text_file.h"
 
 namespace methods {
 namespace {
@@ -173,7 +173,7 @@ bool WidthFormula::is_one(const std::string& text) {
 
 WidthFormula::WidthFormula(const std::string& text) : is_band_(text.rfind("band:", 0) == 0) {
   const auto fail = [&](const std::string& what) {
-    throw std::invalid_argument("width '" + point_sets::excerpt(text) + "': " + what);
+    throw std::invalid_argument("width '" + files::excerpt(text) + "': " + what);
   };
   const std::vector<double> numbers = files::numbers_between(text.substr(5), ',');
   if (numbers.size() != (is_band_ ? 5 : 6))
@@ -377,7 +377,7 @@ double width_of(const std::string& text) {
   const std::string unit = text.substr(end);
   if (!point_sets::parse(text.substr(0, end), value) || !(value > 0) ||
       !(unit.empty() || unit == "km" || unit == "m"))
-    throw std::invalid_argument("'" + point_sets::excerpt(text) + "' is no width: expected, say, 60km");
+    throw std::invalid_argument("'" + files::excerpt(text) + "' is no width: expected, say, 60km");
   return unit == "m" ? value / 1000 : value;
 }
 

@@ -1,10 +1,10 @@
 #include "pictures/colours.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
+#include <map>
+#include <numeric>
 #include <utility>
 
 namespace pictures {
@@ -40,37 +40,23 @@ std::string colour_of_degree(int degree) {
 }
 
 std::vector<std::string> distinct_colours(const std::vector<std::vector<std::size_t>>& beside) {
-  std::array<const char*, kCategories.size() + 1> kColours{};
-  std::copy(kCategories.begin(), kCategories.end(), kColours.begin());
-  kColours.back() = kOtherWords;
-  // Colour those with the fewest remaining neighbours last (Matula & Beck 1983): on a sphere each then has at
-  // most five coloured neighbours, so eight colours suffice.
-  const std::size_t n = beside.size();
-  std::vector<std::size_t> left(n), order;
-  for (std::size_t i = 0; i < n; ++i) left[i] = beside[i].size();
-  constexpr std::size_t kTaken = SIZE_MAX;
-  while (order.size() < n) {
-    const auto next = static_cast<std::size_t>(std::min_element(left.begin(), left.end()) - left.begin());
-    order.push_back(next);
-    left[next] = kTaken;
-    for (const std::size_t other : beside[next])
-      if (left[other] != kTaken) --left[other];
-  }
-  std::reverse(order.begin(), order.end());
-  // Choose among the colours that are rarest among the neighbours the one that is rarest overall.
-  std::vector<std::size_t> chosen(n, kColours.size());
-  std::array<std::size_t, kColours.size()> used{};
+  std::vector<std::string> palette(kCategories.begin(), kCategories.end()), colours(beside.size());
+  palette.emplace_back(kOtherWords);
+  // Those with most neighbours first: of the colours that are rarest among the neighbours the one that is
+  // rarest overall.
+  std::vector<std::size_t> order(beside.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t j) { return beside[i].size() > beside[j].size(); });
+  std::map<std::string, std::size_t> used;
   for (const std::size_t i : order) {
-    std::array<std::size_t, kColours.size() + 1> near{};
-    for (const std::size_t other : beside[i]) ++near[chosen[other]];
-    std::size_t best = 0;
-    for (std::size_t c = 1; c < kColours.size(); ++c)
-      if (std::pair(near[c], used[c]) < std::pair(near[best], used[best])) best = c;
-    chosen[i] = best;
-    ++used[best];
+    std::map<std::string, std::size_t> near;
+    for (const std::size_t other : beside[i]) ++near[colours[other]];
+    colours[i] = *std::min_element(palette.begin(), palette.end(), [&](const auto& a, const auto& b) {
+      return std::pair(near[a], used[a]) < std::pair(near[b], used[b]);
+    });
+    ++used[colours[i]];
   }
-  std::vector<std::string> colours;
-  for (const std::size_t c : chosen) colours.emplace_back(kColours[c]);
   return colours;
 }
 

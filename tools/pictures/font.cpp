@@ -2,26 +2,24 @@
 
 #include <cstddef>
 #include <cstring>
-#include <string_view>
 #include <vector>
 
 namespace pictures {
 namespace {
 
 /// Splits a text into its characters.
-std::vector<std::string_view> characters(const std::string& utf8) {
-  std::vector<std::string_view> result;
-  for (std::size_t begin = 0; begin < utf8.size();) {
-    std::size_t end = begin + 1;
-    while (end < utf8.size() && (static_cast<unsigned char>(utf8[end]) & 0xc0) == 0x80) ++end;
-    result.emplace_back(utf8.data() + begin, end - begin);
-    begin = end;
-  }
+std::vector<std::string> characters(const std::string& utf8) {
+  std::vector<std::string> result;
+  for (const char byte : utf8)
+    if (result.empty() || (static_cast<unsigned char>(byte) & 0xc0) != 0x80)
+      result.emplace_back(1, byte);
+    else
+      result.back() += byte;
   return result;
 }
 
 /// Of a character, in parts of the size.
-double width_of(std::string_view character) {
+double width_of(const std::string& character) {
   if (character.substr(0, 1) == "\xC2" || character.substr(0, 2) == "\xE2\x81") return 0.53;  // as ° and ⁵
   if (character.size() > 1) return 1;
   const char c = character[0];
@@ -34,26 +32,22 @@ double width_of(std::string_view character) {
 
 double text_width(const std::string& utf8, double size) {
   double sum = 0;
-  for (const std::string_view character : characters(utf8)) sum += width_of(character);
+  for (const std::string& character : characters(utf8)) sum += width_of(character);
   return sum * size;
 }
 
 std::string shortened(const std::string& utf8, double size, double width) {
   if (text_width(utf8, size) <= width) return utf8;
-  const std::vector<std::string_view> all = characters(utf8);
-  std::string begin, end;
-  double left = width / size - width_of("…");
-  for (std::size_t i = 0, j = all.size(); i < j;) {  // keep characters from both ends
-    const bool front = begin.size() <= end.size();
-    const std::string_view next = front ? all[i] : all[j - 1];
-    left -= width_of(next);
-    if (left < 0) break;
-    if (front)
-      begin += next, ++i;
-    else
-      end = std::string(next) + end, --j;
+  const std::vector<std::string> all = characters(utf8);
+  std::string begin, end, text = "…";
+  for (std::size_t k = 0; 2 * k < all.size(); ++k) {
+    begin += all[k];
+    end = all[all.size() - 1 - k] + end;
+    const std::string longer = begin + "…" + end;
+    if (text_width(longer, size) > width) break;
+    text = longer;
   }
-  return begin + "…" + end;
+  return text;
 }
 
 }  // namespace pictures

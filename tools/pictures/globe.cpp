@@ -9,6 +9,7 @@
 #include <iterator>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "files/measures.h"
 #include "pictures/globe_html.h"
@@ -17,79 +18,6 @@ namespace pictures {
 namespace {
 
 constexpr const char* kThree = "/usr/share/javascript/three/three.min.js";
-
-/// Bytes as the script reads them, as base64.
-class Bytes {
- public:
-  /// In little-endian order.
-  void add(double value) {
-    std::uint64_t bits;
-    std::memcpy(&bits, &value, sizeof bits);
-    for (int shift = 0; shift < 64; shift += 8) bytes_ += static_cast<char>((bits >> shift) & 255);
-  }
-  /// Seven bits a byte, the lowest first; all bytes but the last have the highest bit.
-  void add(std::uint32_t value) {
-    for (; value > 127; value >>= 7) bytes_ += static_cast<char>((value & 127) | 128);
-    bytes_ += static_cast<char>(value);
-  }
-  /// Differences of either sign: 0, -1, 1, -2 are 0, 1, 2, 3.
-  void add_signed(std::int32_t value) {
-    const auto bits = static_cast<std::uint32_t>(value);
-    add(value < 0 ? ~(bits << 1) : bits << 1);
-  }
-  std::string base64() const {
-    constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve(bytes_.size() / 3 * 4 + 4);
-    for (std::size_t i = 0; i < bytes_.size(); i += 3) {
-      unsigned bits = 0;
-      for (std::size_t k = i; k < i + 3; ++k)
-        bits = bits << 8 | (k < bytes_.size() ? static_cast<unsigned char>(bytes_[k]) : 0U);
-      for (std::size_t k = 0; k < 4; ++k)
-        text += i + k > bytes_.size() ? '=' : kDigits[(bits >> (18 - 6 * k)) & 63];
-    }
-    return text;
-  }
-
- private:
-  std::string bytes_;
-};
-
-std::string base64(const std::vector<double>& values) {
-  Bytes bytes;
-  for (const double value : values) bytes.add(value);
-  return bytes.base64();
-}
-
-/// Of each triangle: the smallest corner less that of the triangle before, and the other corners less it.
-std::string base64_of_triangles(const std::vector<std::int32_t>& corners) {
-  Bytes bytes;
-  std::int32_t last = 0;
-  for (std::size_t k = 0; k < corners.size(); k += 3) {
-    const std::int32_t first = corners[k];
-    for (const std::int32_t difference : {first - last, corners[k + 1] - first, corners[k + 2] - first})
-      bytes.add(static_cast<std::uint32_t>(difference));
-    last = first;
-  }
-  return bytes.base64();
-}
-
-/// Of each line: how many places, and their longitudes and latitudes in 1e-5 degrees, which is a metre, less
-/// those of the place before.
-std::string base64_of_lines(const Lines& lines) {
-  Bytes bytes;
-  std::int32_t lon = 0, lat = 0;
-  for (const auto& line : lines) {
-    bytes.add(static_cast<std::uint32_t>(line.size()));
-    for (const pstripack::Point& p : line) {
-      const auto x = static_cast<std::int32_t>(std::lround(files::longitude(p) * 1e5)),
-                 y = static_cast<std::int32_t>(std::lround(files::latitude(p) * 1e5));
-      bytes.add_signed(x - lon), bytes.add_signed(y - lat);
-      lon = x, lat = y;
-    }
-  }
-  return bytes.base64();
-}
 
 /// A text of JSON that may stand in an element <script>.
 std::string quoted(const std::string& text) {
@@ -107,9 +35,10 @@ std::string quoted(const std::string& text) {
   return result + '"';
 }
 
+/// NaN is null.
 std::string number(double value) {
   char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+  return std::isnan(value) ? "null" : std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
 }
 
 /// [f(item),f(item),...]
@@ -120,6 +49,34 @@ std::string list(const Items& items, const Text& f) {
   return text + "]";
 }
 
+/// In degrees, to 0.1 mm on the Earth.
+std::string list_of_angles(const std::vector<double>& angles) {
+  return list(angles, [](double angle) { return number(std::round(angle * 1e9) / 1e9); });
+}
+
+/// Of each triangle: the smallest corner less that of the triangle before, and the other corners less it.
+std::string list_of_triangles(const std::vector<std::int32_t>& corners) {
+  std::int32_t first = 0;
+  std::size_t k = 0;
+  return list(corners, [&](std::int32_t corner) {
+    const std::int32_t difference = corner - first;
+    if (k++ % 3 == 0) first = corner;
+    return std::to_string(difference);
+  });
+}
+
+/// Of each line: the longitudes and latitudes of its places in 1e-5 degrees, which is a metre, less those of
+/// the place before.
+std::string list_of_lines(const Lines& lines) {
+  return list(lines, [](const std::vector<pstripack::Point>& line) {
+    long lon = 0, lat = 0;
+    return list(line, [&](const pstripack::Point& p) {
+      const long x = std::lround(files::longitude(p) * 1e5), y = std::lround(files::latitude(p) * 1e5);
+      return std::to_string(x - std::exchange(lon, x)) + "," + std::to_string(y - std::exchange(lat, y));
+    });
+  });
+}
+
 std::string data_of(const Globe& globe) {
   std::string text = "{\"title\":" + quoted(globe.title) +
                      ",\"first\":" + std::to_string(globe.first_number) +
@@ -127,15 +84,11 @@ std::string data_of(const Globe& globe) {
   const auto add = [&](const char* name, const std::string& json) {
     text += std::string(",\n\"") + name + "\":" + json;
   };
-  const auto add_bytes = [&](const char* name, const std::string& base64) { add(name, '"' + base64 + '"'); };
-  add_bytes("lon", base64(globe.lon));
-  add_bytes("lat", base64(globe.lat));
-  add_bytes("triangles", base64_of_triangles(globe.triangles));
-  if (!globe.areas.empty()) add_bytes("areas", base64(globe.areas));
+  add("lon", list_of_angles(globe.lon));
+  add("lat", list_of_angles(globe.lat));
+  add("triangles", list_of_triangles(globe.triangles));
   if (const Shading& shading = globe.shading; !shading.of_face.empty()) {
-    Bytes bytes;
-    for (const std::size_t shade : shading.of_face) bytes.add(static_cast<std::uint32_t>(shade));
-    add_bytes("shades", bytes.base64());
+    add("shades", list(shading.of_face, [](std::size_t shade) { return std::to_string(shade); }));
     add("legend", quoted(shading.title));
     add("colours", list(shading.shades, [](const Shade& s) { return quoted(s.colour); }));
     add("labels", list(shading.shades, [](const Shade& s) { return quoted(s.label); }));
@@ -149,11 +102,11 @@ std::string data_of(const Globe& globe) {
     add("name", quoted(globe.value_name));
     add("unit", quoted(globe.value_unit));
     if (globe.words.empty())
-      add_bytes("numbers", base64(globe.numbers));
+      add("numbers", list(globe.numbers, number));
     else
       add("words", list(globe.words, quoted));
   }
-  if (!globe.coasts.empty()) add_bytes("coasts", base64_of_lines(globe.coasts));
+  if (!globe.coasts.empty()) add("coasts", list_of_lines(globe.coasts));
   if (const auto& centre = globe.centre)
     add("centre", '[' + number((*centre)[0]) + ',' + number((*centre)[1]) + ']');
   if (globe.radius) add("radius", number(*globe.radius));

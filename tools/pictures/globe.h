@@ -20,7 +20,6 @@ struct Globe {
   int first_number = 1;                 ///< of nodes and triangles, for readers
   std::vector<double> lon, lat;         ///< of the nodes, in degrees
   std::vector<std::int32_t> triangles;  ///< corners from 0, counterclockwise, smallest first, in its order
-  std::vector<double> areas;            ///< of the Voronoi cells, in steradians; NaN: open; empty: not known
   bool cells = false;                   ///< the faces are cells; else triangles
   Shading shading;                      ///< of the faces
   std::string value_name, value_unit;   ///< of the values that readers see

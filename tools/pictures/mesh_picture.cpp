@@ -39,6 +39,12 @@ std::size_t index(std::int32_t number) { return static_cast<std::size_t>(number)
 constexpr double kLabel = 12;  ///< font size around the drawing
 constexpr auto kHowMany = " (how many nodes)";
 
+/// For a picture of this radius in degrees. Empty: none are to be drawn.
+Lines coasts_of(const MeshOptions& options, double radius) {
+  if (!options.coast_file.empty()) return read_shapefile(options.coast_file);
+  return options.coasts ? read_shapefile(natural_earth(radius)) : Lines();
+}
+
 class MeshPicture {
  public:
   MeshPicture(const Mesh& mesh, const MeshOptions& options)
@@ -58,7 +64,6 @@ class MeshPicture {
     const bool cells = options_.what == What::cells;
     faces_ = cells ? files::voronoi_faces(mesh_) : files::triangle_faces(mesh_);
     if (cells) files::divide_half_turns(faces_);
-    expect_sides_shorter_than_a_half_turn();
     draw_ground();
     draw_faces();
     draw_graticule_again();
@@ -76,9 +81,8 @@ class MeshPicture {
 
   /// The colours of the faces, without a picture.
   Shading shading() {
-    if (options_.colour == Colour::none) return {};
     faces_ = options_.what == What::cells ? files::voronoi_faces(mesh_, false) : files::triangle_faces(mesh_);
-    choose_shades();
+    if (options_.colour != Colour::none) choose_shades();
     return std::move(shading_);
   }
 
@@ -125,12 +129,7 @@ class MeshPicture {
     if (boundary_.empty()) return options_.lonlat ? Spot{0, 0} : Spot{0, 30};
     Point sum{0, 0, 0};
     for (const Point& p : nodes_) sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z};
-    Spot spot = spot_of(dot(sum, sum) > 1e-12 ? sum : nodes_[0]);
-    for (double* angle : {&spot.lon, &spot.lat})  // round if that changes less than 1e-9 degrees
-      for (const double unit : {1e-4, 1e-3, 1e-2, 0.1, 1.0})
-        if (const double rounded = std::round(*angle / unit) * unit; std::fabs(rounded - *angle) < 1e-9)
-          *angle = rounded;
-    return spot;
+    return spot_of(dot(sum, sum) > 1e-12 ? sum : nodes_[0]);
   }
 
   /// The radius that shows all nodes; 90 if it would exceed 70 degrees.
@@ -154,19 +153,6 @@ class MeshPicture {
                     "{}:{:g},{:g} --zoom {:.2g}",
                     grouped(count), grouped(kMostNodesInView), options_.lonlat ? "lonlat" : "orthographic",
                     centre_.lon, centre_.lat, fewer));
-  }
-
-  /// The ends of a half turn do not determine its arc.
-  void expect_sides_shorter_than_a_half_turn() const {
-    for (std::size_t f = 0; f < faces_.size(); ++f)
-      for (std::size_t k = faces_.begin[f]; k < faces_.begin[f + 1]; ++k) {
-        const std::size_t next = k + 1 < faces_.begin[f + 1] ? k + 1 : faces_.begin[f];
-        if (dot(faces_.points[index(faces_.corner[k])], faces_.points[index(faces_.corner[next])]) <
-            -1 + 1e-12)
-          throw std::runtime_error(
-              "a cell has a side of half a great circle and cannot be drawn: say --what triangles, or add "
-              "nodes elsewhere");
-      }
   }
 
   /// Spacing in degrees of meridians or parallels, so that about `lines` of them are visible over `span`
@@ -478,28 +464,17 @@ class MeshPicture {
   }
 
   void draw_coasts() {
-    if (!options_.coasts && options_.coast_file.empty()) return;
-    constexpr double kShort = 0.4;  // shorter steps, in pixels, are left out
-    const auto distance = [](const Place& p, const Place& q) { return std::hypot(p.x - q.x, p.y - q.y); };
+    const Lines coasts = coasts_of(options_, radius_);
+    if (coasts.empty()) return;
+    const double shortest = 0.4 / view_->scale();  // steps below 0.4 pixels are left out
     Path path;
-    for (const auto& line :
-         read_shapefile(options_.coast_file.empty() ? natural_earth(radius_) : options_.coast_file)) {
-      std::optional<Place> drawn, end;  // last point drawn, and end of the previous arc
-      const auto finish = [&] {
-        if (end && distance(*drawn, *end) > 0) path.line(*end);
-      };
-      for (std::size_t i = 0; i + 1 < line.size(); ++i)
-        for (const Outline& part : view_->arc(line[i], line[i + 1])) {
-          if (!end || distance(*end, part.front()) > 0.01) {
-            finish();
-            path.move(part.front());
-            drawn = part.front();
-          }
-          for (const Place& p : part)
-            if (distance(*drawn, p) > kShort) path.line(p), drawn = p;
-          end = part.back();
-        }
-      finish();
+    for (const auto& line : coasts) {
+      const Point* last = &line[0];
+      for (const Point& p : line) {
+        if (&p == last || (&p != &line.back() && files::length(minus(p, *last)) < shortest)) continue;
+        add(view_->arc(*last, p), false, path);
+        last = &p;
+      }
     }
     sheet_.add("<defs><g id=\"coasts\">");
     sheet_.path(path, "fill=\"none\" stroke-linejoin=\"round\"");
@@ -609,46 +584,31 @@ class MeshPicture {
     top_ += 24;
   }
 
-  /// Draws the number of each rank at the centre of its visible nodes if there is space.
+  /// Draws the number of each rank at its node in the middle of its visible nodes if there is space.
   void draw_ranks() {
     constexpr int kMostNumbers = 100;
     constexpr double kNumber = 15;
-    const Frame& frame = view_->frame();
-    const Place middle{(frame.left + frame.right) / 2, (frame.top + frame.bottom) / 2};
     if (options_.colour != Colour::owner || options_.ranks > kMostNumbers) return;
-    std::vector<Point> sum(static_cast<std::size_t>(options_.ranks), Point{0, 0, 0});
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      if (!view_->place(nodes_[i])) continue;
-      Point& s = sum[owner_[i]];
-      s = {s.x + nodes_[i].x, s.y + nodes_[i].y, s.z + nodes_[i].z};
-    }
+    const auto ranks = static_cast<std::size_t>(options_.ranks);
+    std::vector<std::vector<Place>> places(ranks);
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+      if (const auto place = view_->place(nodes_[i])) places[owner_[i]].push_back(*place);
     sheet_.add("<g stroke=\"#ffffff\" stroke-width=\"3\" paint-order=\"stroke\" font-weight=\"bold\">\n");
-    for (std::size_t rank = 0; rank < sum.size(); ++rank) {
-      if (dot(sum[rank], sum[rank]) == 0) continue;
-      const auto place = view_->place(files::unit(sum[rank]));
-      if (!place) continue;
+    for (std::size_t rank = 0; rank < ranks; ++rank) {
+      Place middle{0, 0};
+      const auto count = static_cast<double>(places[rank].size());
+      for (const Place& p : places[rank]) middle.x += p.x / count, middle.y += p.y / count;
+      const auto from_middle = [&](const Place& p) { return std::hypot(p.x - middle.x, p.y - middle.y); };
+      const auto nearest =
+          std::min_element(places[rank].begin(), places[rank].end(),
+                           [&](const Place& p, const Place& q) { return from_middle(p) < from_middle(q); });
+      if (nearest == places[rank].end()) continue;
       const std::string number = std::to_string(rank);
-      const Place at{place->x, place->y + 5};
-      for (const double towards_the_middle : {0.0, 0.02, 0.04, 0.06, 0.08}) {
-        const Place moved{at.x + towards_the_middle * (middle.x - at.x),
-                          at.y + towards_the_middle * (middle.y - at.y)};
-        if (is_inside(box_of(moved, kNumber, Anchor::middle, number)) && owner_at(moved) == rank &&
-            sheet_.text_if_free(moved, kNumber, Anchor::middle, number))
-          break;
-      }
+      const Place at{nearest->x, nearest->y + 5};
+      if (is_inside(box_of(at, kNumber, Anchor::middle, number)))
+        sheet_.text_if_free(at, kNumber, Anchor::middle, number);
     }
     sheet_.add("</g>\n");
-  }
-
-  /// The owner of the node drawn nearest to this place.
-  std::size_t owner_at(const Place& at) const {
-    double least = INFINITY;
-    std::size_t owner = 0;
-    for (std::size_t i = 0; i < nodes_.size(); ++i)
-      if (const auto place = view_->place(nodes_[i]))
-        if (const double distance = std::hypot(place->x - at.x, place->y - at.y); distance < least)
-          least = distance, owner = owner_[i];
-    return owner;
   }
 
   /// True if the box lies in the drawing, at least a line width from its border.
@@ -729,8 +689,30 @@ class MeshPicture {
 
 }  // namespace
 
-Shading mesh_shading(const Mesh& mesh, const MeshOptions& options) {
-  return MeshPicture(mesh, options).shading();
+Globe mesh_globe(const files::Mesh& mesh, const MeshOptions& options) {
+  Globe globe;
+  globe.title = options.title;
+  globe.cells = options.what == MeshOptions::What::cells;
+  files::LonLat angles = files::angles_of(mesh.points, mesh.given, true);
+  globe.lon = std::move(angles.lon), globe.lat = std::move(angles.lat);
+  globe.triangles = files::triangles_of(mesh);
+  for (std::int32_t& corner : globe.triangles) --corner;
+  globe.shading = MeshPicture(mesh, options).shading();
+  if (options.colour == MeshOptions::Colour::value)
+    if (const files::Column* const column = files::find(mesh.columns, options.value)) {
+      globe.value_name = column->long_name.empty() ? column->name : column->long_name;
+      globe.value_unit = column->units;
+      globe.numbers = column->numbers;
+      if (column->is_text()) globe.words = column->texts;
+    }
+  if (options.colour == MeshOptions::Colour::owner && globe.cells) {
+    globe.value_name = "rank";
+    globe.numbers.assign(globe.shading.of_face.begin(), globe.shading.of_face.end());
+  }
+  globe.coasts = coasts_of(options, kGlobeDetail);
+  if (options.centre) globe.centre = {options.centre->lon, options.centre->lat};
+  globe.radius = options.radius;
+  return globe;
 }
 
 std::string mesh_picture(const Mesh& mesh, const MeshOptions& options) {

@@ -8,7 +8,7 @@
 #include "files/mesh.h"
 #include "parallel/partition.h"
 #include "pictures/colours.h"
-#include "pictures/shading.h"
+#include "pictures/globe.h"
 #include "pictures/view.h"
 
 namespace pictures {
@@ -40,11 +40,11 @@ struct MeshOptions {
 /// More nodes in view are refused: lines would be closer than pixels and files too large for viewers.
 constexpr std::size_t kMostNodesInView = 200000;
 
-/// The colours of the faces. Throws std::runtime_error if a column is missing.
-Shading mesh_shading(const files::Mesh& mesh, const MeshOptions& options);
-
 /// The picture as SVG. Throws std::runtime_error if too many nodes are in view, or if coast lines or a column
 /// are missing.
 std::string mesh_picture(const files::Mesh& mesh, const MeshOptions& options);
+
+/// The mesh as a globe, without `lonlat`, `dots` and `width`. Throws as mesh_picture.
+Globe mesh_globe(const files::Mesh& mesh, const MeshOptions& options);
 
 }  // namespace pictures

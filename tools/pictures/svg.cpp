@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -57,30 +58,21 @@ void write(const files::OutputFile& file, Kind kind, const std::string& svg) {
 }
 
 std::string escaped_for_xml(const std::string& text) {
+  static const std::map<char, const char*> names{
+      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
   std::string result;
-  for (const char c : valid_utf8(text)) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? '?' : c;
-    }
-  }
+  for (const char c : valid_utf8(text))
+    if (const auto name = names.find(c); name != names.end())
+      result += name->second;
+    else
+      result += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? '?' : c;
   return result;
 }
 
 void Path::move(const Place& p) {
-  last_ = rounded(p);
+  const Hundredths to = rounded(p);
+  if (to.x == last_.x && to.y == last_.y) return;
+  last_ = to;
   add('M', last_);
 }
 

@@ -1,14 +1,19 @@
 #pragma once
 // Pictures as SVG, or PNG made of it: for `pstripack plot` and `stripack-compare --plot`.
 
+#include <climits>
 #include <cmath>
 #include <optional>
 #include <string>
 
 #include "files/output_file.h"
-#include "pictures/place.h"
 
 namespace pictures {
+
+/// A place in the picture in pixels, to the right and down.
+struct Place {
+  double x, y;
+};
 
 enum class Kind { svg, png };
 
@@ -29,7 +34,10 @@ class Path {
  public:
   void move(const Place& p);
   void line(const Place& p);
-  void close() { data_ += 'Z'; }
+  void close() {
+    data_ += 'Z';
+    last_ = kNowhere;
+  }
   /// A dot: round and as wide as the line if stroke-linecap is "round".
   void dot(const Place& p) {
     move(p);
@@ -45,7 +53,8 @@ class Path {
   static Hundredths rounded(const Place& p) { return {std::lround(100 * p.x), std::lround(100 * p.y)}; }
   void add(char command, const Hundredths& p);
   std::string data_;
-  Hundredths last_{0, 0};
+  static constexpr Hundredths kNowhere{LONG_MIN, LONG_MIN};
+  Hundredths last_ = kNowhere;
 };
 
 }  // namespace pictures

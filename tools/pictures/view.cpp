@@ -1,8 +1,9 @@
 #include "pictures/view.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "files/map_rings.h"
 #include "files/measures.h"
@@ -65,9 +66,7 @@ Place between(const Place& a, const Place& b, double t) {
 /// The number without trailing zeros.
 std::string number(double degrees, int decimals) {
   const double factor = std::pow(10, decimals);
-  char text[40];
-  std::snprintf(text, sizeof text, "%.10g", std::round(std::fabs(degrees) * factor) / factor);
-  return text;
+  return fmt::format("{:.10g}", std::round(std::fabs(degrees) * factor) / factor);
 }
 
 /// The equal longitude that is nearest to `near`.

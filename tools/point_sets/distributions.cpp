@@ -3,66 +3,30 @@
 namespace point_sets {
 
 const std::vector<Distribution>& distributions() {
-  constexpr double usual = 4, over_more_than_100_decades = 8;
-  static const std::vector<Distribution> all{
+  static const std::vector<const char*> names{
       // grids of models
-      {"latlon", usual},
-      {"earth", usual},
-      {"rotated-pole:0.7", usual},
-      {"reduced-gaussian", usual},
-      {"healpix", usual},
-      {"cubed-sphere", usual},
-      {"icosahedral", usual},
-      {"tripolar", usual},
-      {"refined:20", usual},
-      {"fibonacci", usual},
-      {"lattice", usual},
+      "latlon", "earth", "rotated-pole:0.7", "reduced-gaussian", "healpix", "cubed-sphere", "icosahedral",
+      "tripolar", "refined:20", "fibonacci", "lattice",
       // coordinates that were rounded
-      {"single", usual},
-      {"rounded:3", usual},
-      {"rounded:5", usual},
-      {"rounded:7", usual},
+      "single", "rounded:3", "rounded:5", "rounded:7",
       // instruments
-      {"satellite:98.2", usual},
-      {"swaths:200", usual},
-      {"tracks:50", usual},
-      {"rivers:1e-4", usual},
-      {"coast:0.3", usual},
-      {"earthquakes:1e-4", usual},
+      "satellite:98.2", "swaths:200", "tracks:50", "rivers:1e-4", "coast:0.3", "earthquakes:1e-4",
       // along curves
-      {"ring", usual},
-      {"small-circle:1", usual},
-      {"small-circle:1e-3", usual},
-      {"ellipse:1e-9", usual},
-      {"spiral:20", usual},
-      {"strip:1e-9", usual},
-      {"strip:1e-15", usual},
-      {"two-curves:1e-3", usual},
-      {"two-curves:1e-9", usual},
-      {"crossing:1e-3", usual},
-      {"comb:1e-9", usual},
-      {"tee:1e-8", usual},
-      {"falling-tee:6", usual},
-      {"moment:6", usual},
-      {"hemisphere-rim", usual},
+      "ring", "small-circle:1", "small-circle:1e-3", "ellipse:1e-9", "spiral:20", "strip:1e-9", "strip:1e-15",
+      "two-curves:1e-3", "two-curves:1e-9", "crossing:1e-3", "comb:1e-9", "tee:1e-8", "falling-tee:6",
+      "moment:6", "hemisphere-rim",
       // dense places
-      {"variable:1e6", usual},
-      {"clusters:1e-7", usual},
-      {"dense-cap:1e-7", usual},
-      {"antipodal:1e-6", usual},
-      {"cap:1e-6", usual},
-      {"cap:1e-10", usual},
-      {"cap:1e-11", usual},
-      {"cap:1e-12", usual},
-      {"axis-cap:1e-150", usual},
-      {"pairs:1e-10", usual},
-      {"ulp-groups:2", usual},
-      {"ulp-groups:8", usual},
-      {"falling:14", usual},
-      {"rays:12", usual},
-      {"rays:100", over_more_than_100_decades},
-      {"nest:150", over_more_than_100_decades},
-  };
+      "variable:1e6", "clusters:1e-7", "dense-cap:1e-7", "antipodal:1e-6", "cap:1e-6", "cap:1e-10",
+      "cap:1e-11", "cap:1e-12", "axis-cap:1e-150", "pairs:1e-10", "ulp-groups:2", "ulp-groups:8",
+      "falling:14", "rays:12", "rays:100", "nest:150"};
+  static const std::vector<Distribution> all = [] {
+    std::vector<Distribution> made;
+    for (const std::string name : names) {
+      const bool spans_more_than_100_decades = name == "rays:100" || name == "nest:150";
+      made.push_back({name, spans_more_than_100_decades ? 8.0 : 4.0});
+    }
+    return made;
+  }();
   return all;
 }
 

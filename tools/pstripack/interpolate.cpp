@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -98,15 +98,11 @@ files::Grid edges_of(const files::Grid& grid, const Options& options) {
 }
 
 To format_of(const Options& options) {
-  const std::map<std::string, To> names{{"text", To::text}, {"csv", To::csv}, {"netcdf", To::netcdf}};
-  if (!options.to.empty()) return names.at(options.to);
-  for (const auto& [suffix, to] :
-       {std::pair(".nc", To::netcdf), std::pair(".txt", To::text), std::pair(".csv", To::csv)}) {
-    const std::size_t length = std::strlen(suffix);
-    if (options.output.size() > length &&
-        options.output.compare(options.output.size() - length, length, suffix) == 0)
-      return to;
-  }
+  const std::map<std::string, To> names{{"text", To::text}, {".txt", To::text},     {"csv", To::csv},
+                                        {".csv", To::csv},  {"netcdf", To::netcdf}, {".nc", To::netcdf}};
+  const auto found = names.find(
+      options.to.empty() ? std::filesystem::path(options.output).extension().string() : options.to);
+  if (found != names.end()) return found->second;
   if (options.output != "-")
     throw CLI::ValidationError(
         "--output", options.output + ": neither .nc nor .txt nor .csv: give --to netcdf, text or csv");

@@ -9,7 +9,7 @@
 
 #include "files/nearest.h"
 #include "numbers.h"
-#include "pictures/mesh_globe.h"
+#include "pictures/mesh_picture.h"
 #include "pictures/scale.h"
 #include "pictures/svg.h"
 #include "pstripack/options.h"
@@ -104,21 +104,6 @@ void set_scale(const Options& options, MeshOptions& mesh) {
   mesh.range = {ends[0], ends[1]};
 }
 
-bool is_globe(const Options& options) {
-  return options.to == "html" ||
-         (options.to.empty() && std::filesystem::path(options.file).extension() == ".html");
-}
-
-pictures::Kind kind_of(const Options& options) {
-  if (options.to == "svg") return pictures::Kind::svg;
-  if (options.to == "png") return pictures::Kind::png;
-  const auto kind = pictures::kind_of(options.file);
-  if (!kind)
-    throw CLI::ValidationError(
-        "--output", options.file + ": expected FILE.svg, FILE.png or FILE.html, or --to svg, png or html");
-  return *kind;
-}
-
 std::string what_is_drawn(const files::Mesh& mesh, MeshOptions::What what) {
   const std::string nodes = pictures::grouped(mesh.points.size());
   if (what == MeshOptions::What::cells) return nodes + " cells";
@@ -135,8 +120,12 @@ void expect_column(const files::Nodes& nodes, const std::string& name) {
 }
 
 void plot(Options& options) {
-  const bool globe = is_globe(options);
-  const pictures::Kind kind = globe ? pictures::Kind::svg : kind_of(options);
+  const std::string name = options.to.empty() ? options.file : "picture." + options.to;
+  const bool globe = std::filesystem::path(name).extension() == ".html";
+  const pictures::Kind kind = pictures::kind_of(name).value_or(pictures::Kind::svg);
+  if (!globe && !pictures::kind_of(name))
+    throw CLI::ValidationError(
+        "--output", options.file + ": expected FILE.svg, FILE.png or FILE.html, or --to svg, png or html");
   MeshOptions mesh_options;
   if (options.what == "cells") mesh_options.what = MeshOptions::What::cells;
   if (!options.view.empty()) set_view(options.view, mesh_options);

@@ -2,10 +2,7 @@
 // Progress on stderr: on a terminal one line that is updated, otherwise one line every ten seconds.
 
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -17,12 +14,7 @@ void say(const std::string& text);
 /// The steps of a command and their times.
 class Progress {
  public:
-  Progress();
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-
-  /// Runs work() as a step; meanwhile reports `doing`.
+  /// Runs work() as a step.
   template <class Work>
   auto step(const char* doing, const Work& work) {
     begin(doing);
@@ -33,8 +25,8 @@ class Progress {
     return work();
   }
 
-  /// Changes what is reported during the current step.
-  void now(std::string doing);
+  /// Reports what is done during the current step, and its seconds.
+  void now(const std::string& doing);
 
   /// Prints the last line: `what` and the seconds of each step.
   void finish(const std::string& what);
@@ -43,17 +35,10 @@ class Progress {
   using Clock = std::chrono::steady_clock;
   void begin(const char* step);
   void end();
-  void report();
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
-  const bool on_terminal_;
-  std::string step_, doing_;  ///< empty: no step is running
-  Clock::time_point start_;
+  Clock::time_point start_, told_;  ///< of the step, and of the last report
   std::vector<std::pair<std::string, double>> steps_;
-  bool ends_ = false;
-  std::mutex mutex_;
-  std::condition_variable wake_;
-  std::thread reporter_;
 };
 
 }  // namespace program

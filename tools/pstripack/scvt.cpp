@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "base/system.h"
+#include "files/text_file.h"
 #include "methods/densities.h"
 #include "methods/quality.h"
 #include "methods/regional_widths.h"
@@ -30,7 +31,6 @@
 #include "scvt/first_generators.h"
 #include "scvt/front.h"
 #include "scvt/tessellation.h"
-#include "text_file.h"
 
 namespace program {
 namespace {
@@ -100,7 +100,7 @@ std::int64_t count_in(const files::Nodes& start, const char* name, std::int64_t 
   if (text.empty()) return otherwise;
   if (!point_sets::parse(text, count) || !(count >= least && count < 1e15))
     throw std::runtime_error(fmt::format("{}: attribute {}: '{}' is not a number of {}", start.file, name,
-                                         point_sets::excerpt(text),
+                                         files::excerpt(text),
                                          name == kEvaluations ? "iterations" : name + sizeof "scvt"));
   return static_cast<std::int64_t>(count);
 }
@@ -201,8 +201,7 @@ methods::Widths widths_in_file(const Options& options) {
   const std::string& units = nodes.value.units;
   const bool are_metres = units == "m" || units == "meters" || units == "metres";
   if (!are_metres && !units.empty() && units != "km" && units != "kilometers" && units != "kilometres")
-    fail(fmt::format("variable {}: units '{}'; expected km or m", nodes.value.name,
-                     point_sets::excerpt(units)));
+    fail(fmt::format("variable {}: units '{}'; expected km or m", nodes.value.name, files::excerpt(units)));
   const auto is_bad = [](double width) { return !(width > 0 && std::isfinite(width)); };
   if (const auto bad = std::find_if(km.begin(), km.end(), is_bad); bad != km.end()) {
     const auto i = static_cast<std::size_t>(bad - km.begin());

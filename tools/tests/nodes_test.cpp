@@ -156,14 +156,14 @@ TEST(text, values_follow_the_place) {
   EXPECT_EQ(xyz.points, (Points{{0, 1, 0}, {1, 0, 0}}));
   EXPECT_EQ(xyz.value.numbers, (std::vector<double>{7, 8}));
   expect_error("90 0 inf\n", "'inf' is not a finite number", options);
-  expect_error("nan 0 1\n", "node 1 (line 1): its place is 'nan'", options);
+  expect_error("nan 0 1\n", ":1: 'nan' is not a finite number: remove the row, or say --skip-missing",
+               options);
   options.coordinates = Coordinates::lonlat;
   options.variable = "4";
   EXPECT_EQ(read_bytes("90 0 7 8\n", options).value.numbers[0], 8);
   for (const char* const column : {"2", "5", "3.5", "-1"}) {
     options.variable = column;
-    expect_error("90 0 7 8\n",
-                 column == std::string("2") ? "column 2 is a coordinate" : "there is no value in column",
+    expect_error("90 0 7 8\n", column == std::string("2") ? "column 2 is a coordinate" : "there is no column",
                  options);
   }
   options.coordinates = Coordinates::detected;

@@ -63,11 +63,9 @@ def globe(mesh: "Delaunay", values: Optional[ArrayLike], file: "Optional[Union[s
           name: str, unit: str, coasts: "Union[bool, str, os.PathLike[str]]",
           three_file: "Optional[Union[str, os.PathLike[str]]]") -> Globe:
     """See :meth:`Delaunay.globe`."""
-    areas = np.array(mesh.cell_areas)
-    boundary = mesh.convex_hull[:, 0]
-    areas[boundary] = np.nan
     if values is None:
-        colours, name, unit = areas * _EARTH_RADIUS * _EARTH_RADIUS, "area of a cell", "km²"
+        colours, name, unit = mesh.cell_areas * _EARTH_RADIUS * _EARTH_RADIUS, "area of a cell", "km²"
+        colours[mesh.convex_hull[:, 0]] = np.nan
     else:
         colours = np.require(real(values), np.float64, ["A", "C"])
         if colours.ndim != 1:
@@ -76,7 +74,7 @@ def globe(mesh: "Delaunay", values: Optional[ArrayLike], file: "Optional[Union[s
         three_file = _OWN_THREE
     lon, lat = to_lonlat(mesh.points)
     page = _core.globe(f"{mesh.npoints:,} nodes" if title is None else title, np.ascontiguousarray(lon), np.ascontiguousarray(lat),
-                       mesh.simplices, areas, colours, name, unit, values is not None,
+                       mesh.simplices, colours, name, unit, values is not None,
                        "yes" if coasts is True else os.fspath(coasts) if coasts else "",
                        "" if three_file is None else os.fspath(three_file))
     result = Globe(page, mesh.npoints)

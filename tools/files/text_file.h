@@ -3,13 +3,13 @@
 #include <string>
 #include <string_view>
 
-namespace point_sets {
+namespace files {
 
 /// The bytes of a file, or of stdin if `file` is `-`. Throws std::runtime_error.
 std::string contents_of(const std::string& file);
 
-/// Text of a file for a message: at most 60 characters and "...". Control characters and bytes that are no
-/// UTF-8 are written as \n, \t or \x1b.
+/// Text of a file for a message: at most 60 characters and "...". Control characters, quotes, backslashes and
+/// bytes that are no UTF-8 are escaped, as in \n or \x1b.
 std::string excerpt(std::string_view text);
 
-}  // namespace point_sets
+}  // namespace files
