@@ -11,10 +11,10 @@
 #include "files/columns.h"
 #include "files/measures.h"
 #include "files/nearest.h"
+#include "files/text_file.h"
 #include "files/width_regions.h"
 #include "numbers.h"
 #include "point_sets.h"
-#include "text_file.h"
 
 namespace files {
 namespace {
@@ -127,7 +127,7 @@ std::string in_small_letters(std::string text) {
 class PtsFile {
  public:
   explicit PtsFile(const std::string& file) : file_(file) {
-    std::istringstream text(point_sets::contents_of(file));
+    std::istringstream text(contents_of(file));
     std::string line;
     for (std::size_t number = 1; std::getline(text, line); ++number) {
       line = trimmed(line.substr(0, line.find('#')));
@@ -142,7 +142,7 @@ class PtsFile {
         return in_small_letters(name) == in_small_letters(key);
       });
       if (known == kKeys.end())
-        fail(number, fmt::format("unknown key '{}'{}", point_sets::excerpt(key), did_you_mean(key, kKeys)));
+        fail(number, fmt::format("unknown key '{}'{}", excerpt(key), did_you_mean(key, kKeys)));
       if (!values_.emplace(*known, Value{trimmed(line.substr(colon + 1)), number}).second)
         fail(number, *known + " a second time");
     }
@@ -153,7 +153,7 @@ class PtsFile {
     const auto& [text, line] = value("Type");
     const std::string type = in_small_letters(text);
     if (type != "custom" && !corners_.empty())
-      fail(line, fmt::format("the Type '{}' has no corners: only custom has", point_sets::excerpt(text)));
+      fail(line, fmt::format("the Type '{}' has no corners: only custom has", excerpt(text)));
     MapRegion region;
     constexpr int kCorners = 100;
     const auto radians = [&](const char* key) { return number(key, 1, 3.14159 * radius) / radius; };
@@ -181,8 +181,7 @@ class PtsFile {
                    turn = is_circle ? 0 : number("Orientation-angle", -360, 360);
       region = ellipse_region(centre.lon[0], centre.lat[0], a, b, turn, kCorners);
     } else {
-      fail(line,
-           fmt::format("Type '{}': expected circle, ellipse, channel or custom", point_sets::excerpt(text)));
+      fail(line, fmt::format("Type '{}': expected circle, ellipse, channel or custom", excerpt(text)));
     }
     if (const auto name = values_.find("Name"); name != values_.end()) region.name = name->second.text;
     return region;
@@ -210,8 +209,7 @@ class PtsFile {
     const auto& [text, line] = value(key);
     double number = 0;
     if (!point_sets::parse(text, number) || !(number >= low && number <= high))
-      fail(line, fmt::format("{}: '{}': expected a number from {:g} to {:g}", key, point_sets::excerpt(text),
-                             low, high));
+      fail(line, fmt::format("{}: '{}': expected a number from {:g} to {:g}", key, excerpt(text), low, high));
     return number;
   }
   Point place(const std::string& what, const Value& from) const {
@@ -220,8 +218,8 @@ class PtsFile {
                text.end());
     const std::vector<double> parts = numbers_between(text, ',');
     if (parts.size() != 2 || std::fabs(parts[0]) > 90 || std::fabs(parts[1]) > 360)
-      fail(from.line, fmt::format("{}: '{}': expected `latitude, longitude` in degrees", what,
-                                  point_sets::excerpt(from.text)));
+      fail(from.line,
+           fmt::format("{}: '{}': expected `latitude, longitude` in degrees", what, excerpt(from.text)));
     return point_sets::from_degrees(parts[1], parts[0]);
   }
 
