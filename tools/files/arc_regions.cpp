@@ -35,8 +35,7 @@ Ring on_map(const Line& corners, double lon) {
   ring.emplace_back(end, lat);
   if (end == west) return ring;
   ring.insert(ring.end(), {{end, 90}, {west, 90}, {west, lat}});
-  if (MapRegion{0, "", {ring}}.area() > 2 * 3.14159265358979323846)
-    (ring.end() - 2)->second = (ring.end() - 3)->second = -90;
+  if (MapRegion{0, "", {ring}}.area() > 2 * kPi) (ring.end() - 2)->second = (ring.end() - 3)->second = -90;
   return ring;
 }
 

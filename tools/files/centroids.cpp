@@ -11,7 +11,6 @@
 namespace files {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kHalfTurn = -0.9;  ///< cosine of the least angle that is nearly half a turn
 
 /// x / sin(x) - 1 for the angle x between two unit vectors: below 0.2 by its series.

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "files/measures.h"
 #include "geometry/measures.h"
 #include "point_sets.h"
 
 namespace files {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846, kDegree = kPi / 180;
 using Corner = std::pair<double, double>;
 
 }  // namespace

@@ -8,8 +8,10 @@
 
 namespace files {
 
-constexpr double kEarthRadius = 6371;           ///< km
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kDegree = kPi / 180;           ///< radians
 constexpr double kRadian = 57.295779513082321;  ///< degrees
+constexpr double kEarthRadius = 6371;           ///< km
 
 /// The longitude of a vector of any length, in degrees.
 inline double longitude(const pstripack::Point& p) { return std::atan2(p.y, p.x) * kRadian; }

@@ -155,7 +155,6 @@ bool MapRegion::contains(const pstripack::Point& p) const {
 
 double MapRegion::area() const {
   constexpr int kStrips = 1000;
-  constexpr double kDegree = 3.14159265358979323846 / 180;
   double south = 90, north = -90, area = 0;
   for (const auto& ring : rings)
     for (const auto& corner : ring)

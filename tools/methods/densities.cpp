@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "files/measures.h"
 #include "files/nearest.h"
 #include "files/text_file.h"
 #include "methods/grid_values.h"
@@ -19,7 +20,8 @@ namespace {
 
 using files::Point;
 
-constexpr double kPi = 3.14159265358979323846, kDegree = kPi / 180;
+using files::kDegree;
+using files::kPi;
 
 }  // namespace
 

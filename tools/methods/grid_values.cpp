@@ -9,12 +9,14 @@
 #include <stdexcept>
 #include <utility>
 
+#include "files/measures.h"
+
 namespace methods {
 namespace {
 
 using files::Point;
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
+using files::kDegree;
 
 /// The order in which the numbers increase.
 template <class Key>

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "files/measures.h"
 #include "methods/densities.h"
 #include "point_sets.h"
 #include "scvt/front.h"
@@ -18,7 +19,7 @@ namespace {
 
 using files::Point;
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
+using files::kDegree;
 using Interval = std::pair<double, double>;
 
 /// Ticks from `first` to `last`, a step apart in the intervals, and farther apart the farther they are from

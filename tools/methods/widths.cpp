@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "files/measures.h"
 #include "files/nearest.h"
 #include "files/text_file.h"
 #include "methods/densities.h"
@@ -22,7 +23,8 @@ namespace {
 
 using files::Point;
 
-constexpr double kPi = 3.14159265358979323846, kDegree = kPi / 180;
+using files::kDegree;
+using files::kPi;
 
 /// `widths` sets widths as DensityBy's function sets densities.
 std::unique_ptr<Density> density_of_widths(double least, DensityBy::Function widths) {
