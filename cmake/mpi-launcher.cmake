@@ -6,6 +6,18 @@
 #   mpi_patience        factor of the tests' time limits: waiting ranks of MPICH keep processors busy
 #   add_mpi_test, starts_ranks: see below
 set(mpi_environment OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1)
+
+# quick_without_ranks(): at the end of a folder's CMakeLists.txt, gives its tests that start no ranks the label quick.
+function(quick_without_ranks)
+  get_property(tests DIRECTORY PROPERTY TESTS)
+  foreach(test IN LISTS tests)
+    get_property(labels TEST ${test} PROPERTY LABELS)
+    if(NOT mpi IN_LIST labels)
+      set_property(TEST ${test} APPEND PROPERTY LABELS quick)
+    endif()
+  endforeach()
+endfunction()
+
 if(NOT PSTRIPACK_WITH_MPI)
   return()
 endif()
