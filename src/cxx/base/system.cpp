@@ -68,34 +68,19 @@ bool draw_random(void* bytes, std::size_t size) {
 #endif
 }
 
-#if !defined(PSTRIPACK_LINUX)
-namespace {
-bool close_on_exec(const int (&ends)[2]) {
+bool open_stream(int (&ends)[2]) {
+#if defined(PSTRIPACK_LINUX)
+  return socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0;
+#else
+  if (socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0) return false;
   for (const int end : ends) {
     fcntl(end, F_SETFD, FD_CLOEXEC);
-#if defined(SO_NOSIGPIPE)  // what macOS has instead of MSG_NOSIGNAL; fails for a pipe, which needs it not
+#if defined(SO_NOSIGPIPE)  // what macOS has instead of MSG_NOSIGNAL
     const int one = 1;
     setsockopt(end, SOL_SOCKET, SO_NOSIGPIPE, &one, sizeof one);
 #endif
   }
   return true;
-}
-}  // namespace
-#endif
-
-bool open_pipe(int (&ends)[2]) {
-#if defined(PSTRIPACK_LINUX)
-  return pipe2(ends, O_CLOEXEC) == 0;
-#else
-  return pipe(ends) == 0 && close_on_exec(ends);
-#endif
-}
-
-bool open_stream(int (&ends)[2]) {
-#if defined(PSTRIPACK_LINUX)
-  return socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0;
-#else
-  return socketpair(AF_UNIX, SOCK_STREAM, 0, ends) == 0 && close_on_exec(ends);
 #endif
 }
 

@@ -29,10 +29,8 @@ const char* name_of_this_program();
 /// Fills `size` <= 256 bytes with random numbers, without waiting for any. False if the system has none.
 bool draw_random(void* bytes, std::size_t size);
 
-/// As pipe(), and as socketpair() for a stream, but close-on-exec; where the system needs two steps for that,
-/// a program started by another thread between them inherits the descriptors. False on failure, with errno
-/// set.
-bool open_pipe(int (&ends)[2]);
+/// As socketpair() for a stream, but close-on-exec; where the system needs two steps for that, a program
+/// started by another thread between them inherits the descriptors. False on failure, with errno set.
 bool open_stream(int (&ends)[2]);
 /// As sendmsg(), for a socket of open_stream. Raises no SIGPIPE.
 ssize_t send_without_signal(int socket, const msghdr& message);

@@ -68,7 +68,8 @@ template <class Int>
 Int number_at(const Int* address, std::initializer_list<const Int*> other_arguments) {
   Int number = -1;
   int ends[2];
-  if (std::count(other_arguments.begin(), other_arguments.end(), address) > 0 || !open_pipe(ends)) return -1;
+  if (std::count(other_arguments.begin(), other_arguments.end(), address) > 0 || !open_stream(ends))
+    return -1;
   const bool readable = write_unchecked(ends[1], address, sizeof number) == ssize_t{sizeof number} &&
                         read(ends[0], &number, sizeof number) == ssize_t{sizeof number};
   for (const int end : ends) close(end);

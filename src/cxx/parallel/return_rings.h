@@ -54,17 +54,22 @@ Stars<Int> return_rings(Patches<Int> patches, RingAddresses addresses, const Loc
 template <class Int>
 class NamedOutside {
  public:
-  NamedOutside(GlobalNumber first, std::size_t count) : first_(value_of(first)), count_(count) {}
+  NamedOutside(GlobalNumber first, std::size_t count)
+      : first_(static_cast<Int>(first)),
+        last_(static_cast<Int>(value_of(first) + static_cast<std::int64_t>(count) - 1)) {}
 
   void add(Int entry) {
     if (is_outside(entry)) named_.push_back(named_by(entry));
   }
   /// All entries of a stored ring. Reads up to kBlock entries beyond it.
   void add_ring(const Int* place) {
-    const auto count = static_cast<std::size_t>(*place++);
-    bool any = count > kBlock;
-    for (std::size_t k = 0; k < kBlock; ++k) any |= (k < count) & is_outside(place[k]);
-    if (any) std::for_each(place, place + count, [this](Int entry) { add(entry); });
+    const Int count = *place++;
+    Int any = count > Int{kBlock};  // in Int alone, so that compilers vectorise the loop
+#ifndef __clang__
+#pragma GCC unroll 1  // for the same reason: 2.6 instead of 5.6 ns a ring
+#endif
+    for (Int k = 0; k < Int{kBlock}; ++k) any |= Int{k < count} & Int{is_outside(place[k])};
+    if (any != 0) std::for_each(place, place + count, [this](Int entry) { add(entry); });
   }
   void add(const NamedOutside& other) {
     named_.insert(named_.end(), other.named_.begin(), other.named_.end());
@@ -80,10 +85,10 @@ class NamedOutside {
 
  private:
   bool is_outside(Int entry) const {
-    return static_cast<std::uint64_t>(value_of(named_by(entry)) - first_) >= count_;
+    const Int number = entry < 0 ? -entry : entry;
+    return (number < first_) | (number > last_);
   }
-  std::int64_t first_;
-  std::size_t count_;
+  Int first_, last_;
   std::vector<GlobalNumber> named_;
 };
 
