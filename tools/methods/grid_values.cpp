@@ -39,9 +39,10 @@ void require_distinct(const std::vector<double>& ticks, const char* name) {
 /// fit.
 inline double degrees_of(double y, double x) {
   constexpr double kTan = 0.41421356237309503;  // of 22.5 degrees
+  constexpr double kMin = std::numeric_limits<double>::min();
   const double along = std::fabs(x), across = std::fabs(y);
-  const double ratio =
-      std::min(along, across) / std::max({along, across, std::numeric_limits<double>::min()});
+  const double more = across > along ? across : along, less = across > along ? along : across;
+  const double ratio = less / (more > kMin ? more : kMin);
   const double turned = (ratio - 1) / (ratio + 1);
   const bool is_turned = ratio > kTan;
   const double t = is_turned ? turned : ratio, z = t * t;
@@ -57,6 +58,13 @@ inline double degrees_of(double y, double x) {
   return std::copysign(angle, y);
 }
 
+/// Turns the axis so that it begins between 180 degrees west, inclusive, and 180 degrees east.
+std::vector<double> from_180_west(std::vector<double> lon) {
+  const double turns = std::floor((lon.front() + 180) / 360);
+  for (double& tick : lon) tick -= 360 * turns;
+  return lon;
+}
+
 }  // namespace
 
 double in_range(double mean) {
@@ -65,36 +73,43 @@ double in_range(double mean) {
 }
 
 Axis::Axis(std::vector<double> ticks) : ticks_(std::move(ticks)) {
-  ticks_per_unit_ = static_cast<double>(ticks_.size() - 1) / (ticks_.back() - ticks_.front());
+  last_ = static_cast<std::int64_t>(ticks_.size()) - 2;
+  ticks_per_unit_ = static_cast<double>(last_ + 1) / (ticks_.back() - ticks_.front());
+  is_equidistant_ = true;
+  for (std::size_t i = 0; i < ticks_.size(); ++i) {
+    const double position = (ticks_[i] - ticks_.front()) * ticks_per_unit_;
+    is_equidistant_ &= std::fabs(position - static_cast<double>(i)) < 1e-9;
+  }
 }
 
-std::size_t Axis::found(double x) const {
-  return static_cast<std::size_t>(std::upper_bound(ticks_.begin() + 1, ticks_.end() - 1, x) -
-                                  ticks_.begin()) -
-         1;
+std::int64_t Axis::found(double x) const {
+  return std::upper_bound(ticks_.begin() + 1, ticks_.end() - 1, x) - ticks_.begin() - 1;
 }
 
 GridValues::GridValues(Table table)
     : columns_(table.lon.size()),
-      lon_(std::move(table.lon)),
+      lon_(from_180_west(std::move(table.lon))),
       lat_(std::move(table.lat)),
       values_(std::move(table.values)) {}
 
 void GridValues::at(std::size_t n, const Point* p, double* value) const {
   constexpr std::size_t kBatch = 256;
-  double angle[kBatch], height[kBatch];
+  double lon[kBatch], lat[kBatch];
+  const double west = lon_.first();
   for (std::size_t first = 0; first < n; first += kBatch) {
     const std::size_t count = std::min(kBatch, n - first);
     const Point* const place = p + first;
-    for (std::size_t i = 0; i < count; ++i) angle[i] = degrees_of(place[i].y, place[i].x);
-    for (std::size_t i = 0; i < count; ++i)
-      height[i] = degrees_of(place[i].z, std::sqrt(place[i].x * place[i].x + place[i].y * place[i].y));
     for (std::size_t i = 0; i < count; ++i) {
-      const double turns = std::floor((angle[i] - lon_.first()) / 360);
-      const double lon = std::clamp(angle[i] - 360 * turns, lon_.first(), lon_.first() + 360);
-      const auto [column, east] = lon_.place(lon);
-      const auto [row, north] = lat_.place(std::clamp(height[i], -90.0, 90.0));
-      const double *const low = &values_[row * columns_ + column], *const high = low + columns_;
+      const double angle = degrees_of(place[i].y, place[i].x);
+      lon[i] = angle < west ? angle + 360 : angle;
+    }
+    for (std::size_t i = 0; i < count; ++i)
+      lat[i] = degrees_of(place[i].z, std::sqrt(place[i].x * place[i].x + place[i].y * place[i].y));
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto [column, east] = lon_.place(lon[i]);
+      const auto [row, north] = lat_.place(lat[i]);
+      const double* const low = values_.data() + row * static_cast<std::int64_t>(columns_) + column;
+      const double* const high = low + columns_;
       value[first + i] = in_range((1 - north) * ((1 - east) * low[0] + east * low[1]) +
                                   north * ((1 - east) * high[0] + east * high[1]));
     }

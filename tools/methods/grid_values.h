@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "files/nodes.h"
@@ -25,23 +26,27 @@ class Axis {
   explicit Axis(std::vector<double> ticks);
 
   struct Place {
-    std::size_t before;
+    std::int64_t before;
     double part;  ///< fraction of the way to the next tick
   };
-  /// The interval of x; x lies between the first and the last tick.
+  /// The interval of x; x lies between the first and the last tick, up to rounding.
   Place place(double x) const {
-    const double guess = (x - ticks_.front()) * ticks_per_unit_;  // correct if the ticks are equidistant
-    std::size_t i = std::min(static_cast<std::size_t>(std::max(guess, 0.0)), ticks_.size() - 2);
-    if (__builtin_expect(!(ticks_[i] <= x && x <= ticks_[i + 1]), false)) i = found(x);
-    return {i, (x - ticks_[i]) / (ticks_[i + 1] - ticks_[i])};
+    const double position = (x - ticks_.front()) * ticks_per_unit_;
+    std::int64_t i = std::clamp<std::int64_t>(static_cast<std::int64_t>(position), 0, last_);
+    if (is_equidistant_) return {i, position - static_cast<double>(i)};
+    if (!(ticks_[index(i)] <= x && x <= ticks_[index(i) + 1])) i = found(x);
+    return {i, (x - ticks_[index(i)]) / (ticks_[index(i) + 1] - ticks_[index(i)])};
   }
   double first() const { return ticks_.front(); }
 
  private:
-  std::size_t found(double x) const;
+  static std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
+  std::int64_t found(double x) const;
 
   std::vector<double> ticks_;
   double ticks_per_unit_;
+  std::int64_t last_;    ///< interval
+  bool is_equidistant_;  ///< to a thousand-millionth of an interval
 };
 
 class GridValues {
