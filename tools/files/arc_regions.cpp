@@ -55,20 +55,17 @@ void add_arc(const Point& a, const Point& b, Ring& line) {
   line.emplace_back(lon + 360 * std::round((before - lon) / 360), latitude(a));
 }
 
-MapRegion region_of_arcs(std::vector<Line> corners, const Point& inside) {
-  MapRegion region{1};
-  double west = 540;
-  for (const Line& line : corners) region.rings.push_back(on_map(line, longitude(line[0])));
-  for (const Ring& ring : region.rings)
-    for (const auto& corner : ring) west = std::min(west, corner.first);
+MapRegion region_of_arcs(Line corners, const Point& inside) {
+  MapRegion region{1, "", {on_map(corners, longitude(corners[0]))}};
+  Ring& ring = region.rings[0];
+  double west = std::min_element(ring.begin(), ring.end())->first;
   const double shift = west < -180 ? 360 : 0;
-  for (Ring& ring : region.rings)
-    for (auto& corner : ring) corner.first += shift;
+  for (auto& corner : ring) corner.first += shift;
   west += shift;
   if (!region.contains(inside))  // then all around it
     region.rings.insert(region.rings.begin(),
                         {{west, -90}, {west + 360, -90}, {west + 360, 90}, {west, 90}, {west, -90}});
-  region.corners = std::move(corners);
+  region.corners = {std::move(corners)};
   return region;
 }
 
@@ -86,7 +83,7 @@ MapRegion ellipse_region(double lon, double lat, double a, double b, double turn
                     up * centre.y + n_part * north.y + e_part * east.y,
                     up * centre.z + n_part * north.z + e_part * east.z});
   }
-  return region_of_arcs({line}, centre);
+  return region_of_arcs(std::move(line), centre);
 }
 
 void follow_great_circles(MapRegion& region) {
@@ -106,8 +103,7 @@ void follow_great_circles(MapRegion& region) {
   }
 }
 
-// ---- files of MPAS-Limited-Area
-// -----------------------------------------------------------------------------
+// ---- files of MPAS-Limited-Area ---------------------------------------------------------------------------
 
 namespace {
 
@@ -158,20 +154,19 @@ class PtsFile {
     const auto radians = [&](const char* key) { return number(key, 1, 3.14159 * radius) / radius; };
     if (type == "channel") {
       const double north = number("Upper-lat", -90, 90), south = number("Lower-lat", -90, north);
-      std::vector<Line> lines;
+      region = {1, "", {{{-180, south}, {180, south}, {180, north}, {-180, north}, {-180, south}}}};
       for (const double lat : {south, north}) {
-        lines.emplace_back();
+        Line& parallel = region.corners.emplace_back();
         for (int k = 0; k < kCorners; ++k)
-          lines.back().push_back(point_sets::from_degrees(360.0 * k / kCorners, lat));
+          parallel.push_back(point_sets::from_degrees(360.0 * k / kCorners, lat));
       }
-      region = region_of_arcs(lines, point_sets::from_degrees(0, (south + north) / 2));
     } else if (type == "custom") {
       if (corners_.size() < 3) fail(line, "custom needs three corners or more: lines of `lat, lon`");
       for (std::size_t i = 0; i < corners_.size(); ++i)
         if (dot(corners_[i], corners_[(i + 1) % corners_.size()]) < -1 + 1e-12)
           fail(line,
                fmt::format("no one arc joins corner {} to the next, which is opposite: add one", i + 1));
-      region = region_of_arcs({corners_}, place("Point", value("Point")));
+      region = region_of_arcs(corners_, place("Point", value("Point")));
     } else if (type == "circle" || type == "ellipse") {
       const LonLat centre({place("Point", value("Point"))}, true);
       const bool is_circle = type == "circle";

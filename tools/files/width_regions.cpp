@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
 
 #include "files/geojson.h"
@@ -168,6 +169,7 @@ double MapRegion::area() const {
 }
 
 std::vector<MapRegion> read_polygons(const std::string& file) {
+  if (std::filesystem::path(file).extension() == ".pts") return read_pts(file, 1000 * kEarthRadius);
   std::vector<MapRegion> polygons;
   Reader reader(file);
   for (Reader::Feature& feature : reader.features)

@@ -17,7 +17,7 @@ struct MapRegion {
   /// the holes of its polygons. A place is inside if a meridian from it crosses an odd number of sides.
   std::vector<std::vector<std::pair<double, double>>> rings = {};
   /// If its sides are arcs of great circles: the corners of each closed line. `rings` then are within 2e-7
-  /// rad of the arcs.
+  /// rad of the arcs; those of a channel are its parallels.
   std::vector<std::vector<pstripack::Point>> corners = {};
 
   /// Pairs of increasing longitudes, within -180 to 540, between which the parallel is inside.
@@ -26,8 +26,8 @@ struct MapRegion {
   double area() const;  ///< on the unit sphere, to about 1e-3 of itself
 };
 
-/// The side of the closed lines of arcs between these corners on which `inside` lies.
-MapRegion region_of_arcs(std::vector<std::vector<pstripack::Point>> corners, const pstripack::Point& inside);
+/// The side of the closed line of arcs between these corners on which `inside` lies.
+MapRegion region_of_arcs(std::vector<pstripack::Point> corners, const pstripack::Point& inside);
 /// An ellipse of n corners around a place in degrees: half its axes in radians; the first, `a`, turned by
 /// `turn` degrees from north to east.
 MapRegion ellipse_region(double lon, double lat, double a, double b, double turn, int n);

@@ -603,6 +603,13 @@ def test_cells_in_regions_and_polygons():
                                                                          other]})
     output("voronoi nodes.txt --clip-to named.json -o parts.csv")
     assert {tuple(row[-6:-4]) for row in table("parts.csv")[1:]} == {("1", "east bank"), ("2", "7")}
+    # Regions of MPAS-Limited-Area, whose circles have 100 corners.
+    for text, part in (("Type: circle\nName: c\nPoint: 0, 50\nradius: 1e6\n", (1 - math.cos(1000 / 6371)) / 2),
+                       ("Type: channel\nName: c\nUpper-lat: -30\nLower-lat: -60\n", (math.sin(math.pi / 3) - 0.5) / 2)):
+        write("area.pts", text)
+        output("voronoi nodes.txt --clip-to area.pts -o parts.geojson")
+        area = sum(feature["properties"]["area"] for feature in features("parts.geojson"))
+        assert abs(area / (4 * math.pi * part) - 1) < 1e-3 and features("parts.geojson")[0]["properties"]["polygon_name"] == "c"
     write("cap.txt", "0 0\n10 0\n0 10\n3 3\n")
     for code, arguments, words in (
             (2, "nodes.txt --clip-to two.json --clip-to-hull", "--clip-to: polygons cut whole cells: leave out --clip-to-hull"),
