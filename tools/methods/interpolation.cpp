@@ -48,12 +48,9 @@ std::size_t blocks_of(std::size_t places) { return (places + kBlock - 1) / kBloc
 /// Calls visit(block, first, end) for each block of so many places, on several threads.
 template <class Visit>
 void for_each_block(std::size_t places, const Visit& visit) {
-  const int threads = pstripack::threads_for(100 * places);
-  pstripack::ErrorsOfThreads errors(static_cast<std::size_t>(threads));
-  pstripack::parallel_pieces(blocks_of(places), threads, [&](std::size_t first, std::size_t last, int piece) {
-    errors.keep(static_cast<std::size_t>(piece), [&] {
-      for (std::size_t b = first; b < last; ++b) visit(b, b * kBlock, std::min((b + 1) * kBlock, places));
-    });
+  pstripack::ErrorsOfThreads errors(blocks_of(places));
+  pstripack::parallel_for(blocks_of(places), 100 * places, [&](std::size_t b) {
+    errors.keep(b, [&] { visit(b, b * kBlock, std::min((b + 1) * kBlock, places)); });
   });
   errors.rethrow();
 }

@@ -267,10 +267,8 @@ class MeshPicture {
     std::vector<Point> corners;
     for (std::size_t f = 0; f < faces_.size(); ++f) {
       corners.clear();
-      for (std::size_t k = faces_.begin[f]; k < faces_.begin[f + 1]; ++k) {
-        const Point& p = faces_.points[index(faces_.corner[k])];
-        if (corners.empty() || p != corners.back()) corners.push_back(p);
-      }
+      for (std::size_t k = faces_.begin[f]; k < faces_.begin[f + 1]; ++k)
+        if (corners.empty() || faces_.point(k) != corners.back()) corners.push_back(faces_.point(k));
       while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
       add(view_->polygon(corners), true, paths[shading_.of_face[f]]);
     }
@@ -317,9 +315,8 @@ class MeshPicture {
     if (column->is_text()) return shade_by_words(column->texts, title);
     if (options_.what == What::cells) return shade_by_numbers(column->numbers, title, column->units);
     std::vector<double> means(faces_.size());
-    for (std::size_t f = 0; f < means.size(); ++f)
-      for (std::size_t k = faces_.begin[f]; k < faces_.begin[f + 1]; ++k)
-        means[f] += column->numbers[index(faces_.corner[k])] / 3;
+    faces_.for_each_corner(
+        [&](std::size_t f, std::size_t k) { means[f] += column->numbers[index(faces_.corner[k])] / 3; });
     shade_by_numbers(means, title, column->units);
   }
 
@@ -393,13 +390,10 @@ class MeshPicture {
 
   template <class Visit>
   void for_each_arc(const Visit& visit) const {
-    for (std::int32_t node = 1; node <= reader_.size(); ++node) {
-      std::int32_t slot = reader_.last_slot(node);
-      do {
-        if (reader_.neighbour(slot) > node) visit(index(node), index(reader_.neighbour(slot)));
-        slot = reader_.next(slot);
-      } while (slot != reader_.last_slot(node));
-    }
+    for (std::int32_t node = 1; node <= reader_.size(); ++node)
+      reader_.for_each_neighbour(node, [&](std::int32_t neighbour) {
+        if (neighbour > node) visit(index(node), index(neighbour));
+      });
   }
 
   /// Draws each side of a face once. Two faces share a side; it is drawn in the one where it leads to the
@@ -422,13 +416,11 @@ class MeshPicture {
     if (options_.what == What::triangles) {
       for_each_arc([&](std::size_t a, std::size_t b) { draw(nodes_[a], nodes_[b]); });
     } else {
-      for (std::size_t f = 0; f < faces_.size(); ++f)
-        for (std::size_t k = faces_.begin[f]; k < faces_.begin[f + 1]; ++k) {
-          const std::int32_t u = faces_.corner[k],
-                             v = faces_.corner[k + 1 < faces_.begin[f + 1] ? k + 1 : faces_.begin[f]];
-          if (u < v && faces_.points[index(u)] != faces_.points[index(v)])
-            draw(faces_.points[index(u)], faces_.points[index(v)]);
-        }
+      faces_.for_each_corner([&](std::size_t f, std::size_t k) {
+        const std::size_t next = faces_.after(f, k);
+        if (faces_.corner[k] < faces_.corner[next] && faces_.point(k) != faces_.point(next))
+          draw(faces_.point(k), faces_.point(next));
+      });
     }
     spacing_ = count == 0 ? 10 : length / static_cast<double>(count);
     const char* const colour = options_.colour == Colour::none ? kLine

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <iterator>
 #include <map>
 #include <memory>
@@ -13,10 +14,6 @@
 
 namespace pictures {
 namespace {
-
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
 
 /// The text with U+FFFD in place of what is not UTF-8.
 std::string valid_utf8(const std::string& text) {
@@ -40,8 +37,9 @@ void write_png(const files::OutputFile& file, const std::string& svg) {
 }  // namespace
 
 std::optional<Kind> kind_of(const std::string& file) {
-  if (ends_with(file, ".svg")) return Kind::svg;
-  if (ends_with(file, ".png")) return Kind::png;
+  const std::filesystem::path suffix = std::filesystem::path(file).extension();
+  if (suffix == ".svg") return Kind::svg;
+  if (suffix == ".png") return Kind::png;
   return std::nullopt;
 }
 

@@ -7,13 +7,9 @@
 #include <string>
 
 #include "files/output_file.h"
+#include "pictures/place.h"
 
 namespace pictures {
-
-/// A place in the picture in pixels, to the right and down.
-struct Place {
-  double x, y;
-};
 
 enum class Kind { svg, png };
 

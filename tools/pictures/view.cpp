@@ -1,9 +1,8 @@
 #include "pictures/view.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "files/map_rings.h"
 #include "files/measures.h"
@@ -66,7 +65,9 @@ Place between(const Place& a, const Place& b, double t) {
 /// The number without trailing zeros.
 std::string number(double degrees, int decimals) {
   const double factor = std::pow(10, decimals);
-  return fmt::format("{:.10g}", std::round(std::fabs(degrees) * factor) / factor);
+  char text[40];
+  std::snprintf(text, sizeof text, "%.10g", std::round(std::fabs(degrees) * factor) / factor);
+  return text;
 }
 
 /// The equal longitude that is nearest to `near`.

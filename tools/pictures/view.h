@@ -8,7 +8,7 @@
 
 #include "files/clipping.h"
 #include "geometry/point.h"
-#include "pictures/svg.h"
+#include "pictures/place.h"
 
 namespace pictures {
 

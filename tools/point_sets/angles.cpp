@@ -33,16 +33,9 @@ double sin_degrees(double angle) {
   double sine = 0, cosine = 0;
   for (int k = 19; k >= 3; k -= 2) sine = (1 + sine) * (-s / (k * (k - 1)));
   for (int k = 18; k >= 2; k -= 2) cosine = (1 + cosine) * (-s / (k * (k - 1)));
-  switch ((static_cast<int>(quarter) % 4 + 4) % 4) {
-    case 0:
-      return t + t * sine;
-    case 1:
-      return 1 + cosine;
-    case 2:
-      return -(t + t * sine);
-    default:
-      return -(1 + cosine);
-  }
+  const int turned = (static_cast<int>(quarter) % 4 + 4) % 4;
+  const double size = turned % 2 == 0 ? t + t * sine : 1 + cosine;
+  return turned < 2 ? size : -size;
 }
 
 double cos_degrees(double angle) { return sin_degrees(90 - std::fabs(std::fmod(angle, 360))); }

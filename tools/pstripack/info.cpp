@@ -47,19 +47,15 @@ Facts facts_of(const Mesh& mesh) {
   std::vector<double> lengths;
   for (std::int32_t node = 1; node <= reader.size(); ++node) {
     double degree = 0;
-    std::int32_t slot = reader.last_slot(node);
-    do {
+    reader.for_each_neighbour(node, [&](std::int32_t neighbour) {
       ++degree;
-      const std::int32_t neighbour = reader.neighbour(slot);
-      if (neighbour > node) {
-        const double length = arc_length(at(node), at(neighbour));
-        lengths.push_back(length);
-        facts.mean += length;
-        if (length < facts.shortest.value) facts.shortest = {length, node, neighbour};
-        if (length > facts.longest.value) facts.longest = {length, node, neighbour};
-      }
-      slot = reader.next(slot);
-    } while (slot != reader.last_slot(node));
+      if (neighbour < node) return;
+      const double length = arc_length(at(node), at(neighbour));
+      lengths.push_back(length);
+      facts.mean += length;
+      if (length < facts.shortest.value) facts.shortest = {length, node, neighbour};
+      if (length > facts.longest.value) facts.longest = {length, node, neighbour};
+    });
     if (reader.on_boundary(node)) ++facts.boundary;
     if (degree < facts.fewest.value) facts.fewest = {degree, node};
     if (degree > facts.most.value) facts.most = {degree, node};
