@@ -8,7 +8,7 @@ build=build
 configure() {
   [ -f $build/CMakeCache.txt ] || generator="-G Ninja"
   # shellcheck disable=SC2086  # two words on purpose
-  cmake -S . -B $build ${generator:-} -DCMAKE_BUILD_TYPE=Release
+  cmake -S . -B $build ${generator:-} -DCMAKE_BUILD_TYPE=Release -DPSTRIPACK_UNITY=ON
 }
 
 stage "install packages" sh cmake/install-packages.sh
