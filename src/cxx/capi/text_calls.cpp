@@ -28,10 +28,6 @@ struct Text {
   std::size_t taken = 0;  ///< number of characters taken so far
 };
 
-void complain(const char* routine, const char* why) {
-  std::fprintf(stderr, "pstripack: %s: %s\n", routine, why);
-}
-
 /// The one catch-all: calls compose(records) in the default floating-point environment and returns a handle
 /// of the text. Null, with one line on stderr, if it throws, which only the allocator does.
 template <class Compose>
@@ -41,7 +37,7 @@ void* composed(const char* routine, const Compose& compose) {
     in_default_floating_point([&] { compose(text->records); });
     return text.release();
   } catch (...) {
-    complain(routine, "out of memory");
+    std::fprintf(stderr, "pstripack: %s: out of memory\n", routine);
     return nullptr;
   }
 }
