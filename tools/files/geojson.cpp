@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string_view>
 
@@ -86,6 +87,40 @@ Json read_features(const std::string& text, const std::string& file, const char*
   }
   check_reference_system(root, file);
   return root;
+}
+
+std::vector<std::vector<std::pair<double, double>>> read_lines(const std::string& file) {
+  std::vector<std::vector<std::pair<double, double>>> lines;
+  const std::initializer_list<const char*> types{"LineString", "Polygon", "MultiLineString", "MultiPolygon"};
+  read_features(contents_of(file), file, "lines", types, [&](const Json& feature, std::size_t k) {
+    const auto require = [&](bool condition, const char* what) {
+      if (!condition) throw std::runtime_error(fmt::format("{}: feature {}: expected {}", file, k, what));
+    };
+    const auto geometry = feature.find("geometry");
+    require(geometry != feature.end() && geometry->is_object() &&
+                std::find(types.begin(), types.end(), text_of(*geometry, "type")) != types.end() &&
+                geometry->contains("coordinates"),
+            "lines or polygons");
+    const auto add = [&](const auto& add_those_in, const Json& list) -> void {
+      require(list.is_array() && !list.empty() && list[0].is_array() && !list[0].empty(),
+              "lists of [longitude, latitude]");
+      if (!list[0][0].is_number()) {
+        for (const Json& part : list) add_those_in(add_those_in, part);
+        return;
+      }
+      auto& line = lines.emplace_back();
+      for (const Json& place : list) {
+        require(place.is_array() && place.size() >= 2 && place[0].is_number() && place[1].is_number(),
+                "lists of [longitude, latitude]");
+        line.emplace_back(place[0].get<double>(), place[1].get<double>());
+        require(std::fabs(line.back().first) <= 540 && std::fabs(line.back().second) <= 90,
+                "longitudes within -540 to 540, latitudes within -90 to 90");
+      }
+    };
+    add(add, (*geometry)["coordinates"]);
+  });
+  if (lines.empty()) throw std::runtime_error(file + ": no lines: there are no features");
+  return lines;
 }
 
 }  // namespace files

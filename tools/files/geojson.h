@@ -6,6 +6,8 @@
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace files {
 
@@ -20,5 +22,9 @@ std::string text_of(const Json& object, const char* key);
 Json read_features(const std::string& text, const std::string& file, const char* what,
                    std::initializer_list<const char*> geometries,
                    const std::function<void(const Json&, std::size_t)>& add);
+
+/// The lines of a file, and the outlines and holes of its polygons: longitudes and latitudes in degrees.
+/// Throws std::runtime_error: one line.
+std::vector<std::vector<std::pair<double, double>>> read_lines(const std::string& file);
 
 }  // namespace files

@@ -154,6 +154,20 @@ class GradientLimit {
   std::priority_queue<Entry, std::deque<Entry>> queue_;  ///< a deque never needs room for a copy
 };
 
+/// Ticks about as far apart as the narrowest cell is wide, with values 0.
+Table grid_for(double least, double radius) {
+  constexpr double kFinest = 0.1, kCoarsest = 0.5;
+  const double step = std::clamp(least / radius / kDegree, kFinest, kCoarsest);
+  const auto rows = static_cast<std::size_t>(std::ceil(180 / step)) + 1, columns = 2 * (rows - 1);
+  Table t;
+  for (std::size_t c = 0; c <= columns; ++c)
+    t.lon.push_back(-180 + 360 * static_cast<double>(c) / static_cast<double>(columns));
+  for (std::size_t r = 0; r < rows; ++r)
+    t.lat.push_back(-90 + 180 * static_cast<double>(r) / static_cast<double>(rows - 1));
+  t.values.resize(rows * (columns + 1));
+  return t;
+}
+
 /// The columns of an equidistant table without its last one that lie inside the region at this latitude.
 template <class Visit>
 void for_each_inside(const files::WidthRegion& region, double lat, std::size_t columns, const Visit& visit) {
@@ -290,17 +304,10 @@ void set_outside(Table& table, const std::vector<bool>& inside, double gradient,
 
 Table widths_of_regions(const std::vector<files::WidthRegion>& regions, const WidthFormula& elsewhere,
                         double radius) {
-  constexpr double kFinest = 0.1, kCoarsest = 0.5;
   double least = elsewhere.least();
   for (const files::WidthRegion& region : regions) least = std::min(least, region.width);
-  const double step = std::clamp(least / radius / kDegree, kFinest, kCoarsest);
-  const auto rows = static_cast<std::size_t>(std::ceil(180 / step)) + 1, columns = 2 * (rows - 1);
-  Table t;
-  for (std::size_t c = 0; c <= columns; ++c)
-    t.lon.push_back(-180 + 360 * static_cast<double>(c) / static_cast<double>(columns));
-  for (std::size_t r = 0; r < rows; ++r)
-    t.lat.push_back(-90 + 180 * static_cast<double>(r) / static_cast<double>(rows - 1));
-  t.values.resize(rows * (columns + 1));
+  Table t = grid_for(least, radius);
+  const std::size_t rows = t.lat.size(), columns = t.lon.size() - 1;
   for (std::size_t r = 0; r < rows; ++r) {
     std::vector<Point> places;
     for (const double lon : t.lon) places.push_back(point_sets::from_degrees(lon, t.lat[r]));
@@ -335,6 +342,47 @@ Table widths_of_regions(const std::vector<files::WidthRegion>& regions, const Wi
     if (region->transition > 0 && change > 0)
       GradientLimit(t, change / region->transition, radius).run(&inside, !is_wide);
   }
+  return t;
+}
+
+WidthDistance::WidthDistance(const std::string& text) {
+  const std::vector<std::string> parts = files::parts_of(text, ':');
+  const std::size_t n = parts.size();
+  if (n < 4 || !point_sets::parse(parts[n - 3], near) || !point_sets::parse(parts[n - 2], far) ||
+      !point_sets::parse(parts[n - 1], distance) || !(near > 0 && far >= near && distance > 0))
+    throw std::invalid_argument("'" + files::excerpt(text) +
+                                "': expected FILE:NEAR:FAR:KM, NEAR and KM above 0 and FAR at least NEAR");
+  file = text.substr(0, text.size() - (parts[n - 3] + parts[n - 2] + parts[n - 1]).size() - 3);
+}
+
+Table widths_of_distance(const std::vector<std::vector<std::pair<double, double>>>& lines,
+                         const WidthDistance& given, double radius) {
+  Table t = grid_for(given.near, radius);
+  std::fill(t.values.begin(), t.values.end(), given.far);
+  const double slope = (given.far - given.near) / given.distance, step = t.lat[1] - t.lat[0];
+  const std::size_t columns = t.lon.size() - 1;
+  const auto lower_around = [&](double lon, double lat) {
+    const Point p = point_sets::from_degrees(lon, lat);
+    const auto row = std::min(static_cast<std::size_t>((lat + 90) / step), t.lat.size() - 2);
+    const auto column = static_cast<std::size_t>((lon + 900) / step);  // not negative; two turns too far
+    for (const std::size_t r : {row, row + 1})
+      for (const std::size_t c : {column % columns, (column + 1) % columns}) {
+        const Point d = minus(p, point_sets::from_degrees(t.lon[c], t.lat[r]));
+        double& value = t.values[r * (columns + 1) + c];
+        value = std::min(value, given.near + slope * radius * 2 * std::asin(std::sqrt(dot(d, d)) / 2));
+      }
+  };
+  for (const auto& line : lines)
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      const auto [lon, lat] = line[i - 1];
+      const auto [to_lon, to_lat] = line[i];
+      const bool is_cut = std::fabs(lon) == 180 && std::fabs(to_lon) == 180;
+      if (is_cut || std::fabs(lat) == 90 || std::fabs(to_lat) == 90) continue;
+      const double east = to_lon - lon, north = to_lat - lat;
+      const double pieces = std::ceil(4 * std::max({std::fabs(east), std::fabs(north), step}) / step);
+      for (double k = 0; k <= pieces; ++k) lower_around(lon + k / pieces * east, lat + k / pieces * north);
+    }
+  GradientLimit(t, slope, radius).run();
   return t;
 }
 

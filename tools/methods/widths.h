@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "files/width_regions.h"
@@ -79,6 +80,20 @@ Lowered limit_gradient(Table& table, double gradient, double radius);
 /// region that is smaller than a cell.
 Table widths_of_regions(const std::vector<files::WidthRegion>& regions, const WidthFormula& elsewhere,
                         double radius);
+
+/// FILE:NEAR:FAR:KM: widths of NEAR km at the lines of a GeoJSON file, and at the sides of its polygons,
+/// which grow evenly to FAR at the distance KM.
+struct WidthDistance {
+  std::string file;
+  double near = 0, far = 0, distance = 0;
+  /// Throws std::invalid_argument.
+  explicit WidthDistance(const std::string& text);
+};
+
+/// Its widths at lines of longitudes and latitudes, on a grid as that of widths_of_regions(): up to the
+/// change of widths over half of its spacing.
+Table widths_of_distance(const std::vector<std::vector<std::pair<double, double>>>& lines,
+                         const WidthDistance& given, double radius);
 
 /// Sets the values of places that are not inside (the table's, without its last column): w(y) up to `flat`
 /// widths w(y) and `more` km from a place y inside, then growing by `gradient` km per km up to `most`, or to

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "base/system.h"
+#include "files/geojson.h"
 #include "files/text_file.h"
 #include "methods/densities.h"
 #include "methods/quality.h"
@@ -51,7 +52,7 @@ struct Options {
   First first = First::by_number;
   Input start;
   std::string density, density_file, width_file, variable;
-  std::string width_text, width_region;
+  std::string width_text, width_region, width_distance;
   std::string region, sides;     ///< that is kept; empty: the sphere
   files::LimitedArea area;       ///< the region
   files::Point centre{0, 0, 0};  ///< of its cells
@@ -69,16 +70,17 @@ struct Options {
   std::int64_t evaluations = 10000, every = 100;
   double time_limit = 0;  ///< seconds; 0: none
   std::string history;    ///< of --start
+  bool has_widths() const { return !(width_text + width_file + width_distance).empty(); }
   Output output, checkpoint{"", "", files::Format::netcdf};
 };
 
 // Attributes of the output that let another run continue this one.
 constexpr auto kEvaluations = "scvt_iterations", kDensity = "scvt_density",
                kDensityFile = "scvt_density_file", kWidthFile = "scvt_width_file", kWidth = "scvt_width",
-               kWidthRegion = "scvt_width_region", kVariable = "scvt_density_variable",
-               kRegion = "scvt_region", kSides = "scvt_sides", kRadius = "scvt_radius", kGrade = "scvt_grade",
-               kSteps = "scvt_steps", kPairs = "scvt_pairs", kExponent = "scvt_exponent", kMark = "scvt_mark",
-               kEnergy = "scvt_energy_at_mark";
+               kWidthRegion = "scvt_width_region", kWidthDistance = "scvt_width_distance",
+               kVariable = "scvt_density_variable", kRegion = "scvt_region", kSides = "scvt_sides",
+               kRadius = "scvt_radius", kGrade = "scvt_grade", kSteps = "scvt_steps", kPairs = "scvt_pairs",
+               kExponent = "scvt_exponent", kMark = "scvt_mark", kEnergy = "scvt_energy_at_mark";
 
 // The options that are stored in them as they are.
 constexpr std::pair<const char*, std::string Options::*> kStored[] = {{kDensity, &Options::density},
@@ -271,11 +273,18 @@ methods::Widths widths_of_regions(const Options& options) {
   return widths_of(std::move(table), options);
 }
 
+methods::Widths widths_of_distance(const Options& options) {
+  const methods::WidthDistance given(options.width_distance);
+  const auto lines = files::read_lines(given.file);
+  return widths_of(methods::widths_of_distance(lines, given, options.radius / 1000), options);
+}
+
 /// The density of the widths; chooses N.
 std::unique_ptr<engine::Density> density_of_widths(Options& options) {
   methods::Widths widths = !options.width_region.empty() ? widths_of_regions(options)
                            : !options.width_text.empty() ? widths_of_formula(options)
-                                                         : widths_in_file(options);
+                           : !options.width_file.empty() ? widths_in_file(options)
+                                                         : widths_of_distance(options);
   if (!options.region.empty()) {
     methods::RegionalWidths regional =
         methods::widths_in(options.area, widths, options.grade, options.radius / 1000);
@@ -292,7 +301,7 @@ std::unique_ptr<engine::Density> density_of_widths(Options& options) {
 }
 
 std::unique_ptr<engine::Density> make_density(Options& options) {
-  if (!options.width_text.empty() || !options.width_file.empty()) return density_of_widths(options);
+  if (options.has_widths()) return density_of_widths(options);
   if (!options.density_file.empty()) return density_in_file(options);
   if (options.density == "constant") options.nominal = std::sqrt(methods::cells_of_width(1, 1));
   try {
@@ -321,8 +330,7 @@ void choose_density(Options& options, const files::Notes& notes) {
     choose_n(options, cells);
   }
   const auto is_chosen = [&] {
-    return !(options.density.empty() && options.density_file.empty() && options.width_file.empty() &&
-             options.width_text.empty());
+    return options.has_widths() || !(options.density.empty() && options.density_file.empty());
   };
   if (!is_chosen()) {
     for (const auto& [name, option] : kStored)
@@ -332,7 +340,7 @@ void choose_density(Options& options, const files::Notes& notes) {
   if (!is_chosen()) options.density = "constant";
   if (!options.region.empty())
     options.area = limited_area_of(options.region, options.sides, options.start.read, options.radius / 1000);
-  const bool widths_differ = !options.width_file.empty() || !options.width_text.empty();
+  const bool widths_differ = options.has_widths();
   // With a region most of the gradient is that of the coarse cells outside.
   if (options.tolerance < 0 && widths_differ) options.settled = 3e-5;
   if (options.tolerance < 0) options.tolerance = !options.region.empty() ? 1e-3 : widths_differ ? 3e-4 : 1e-4;
@@ -343,7 +351,7 @@ files::Notes notes_of_density(const Options& options) {
   for (const auto& [name, option] : kStored)
     if (!(options.*option).empty()) notes[name] = options.*option;
   if (options.density.empty() && !options.variable.empty()) notes[kVariable] = options.variable;
-  if (!options.width_file.empty() || !options.width_text.empty()) {
+  if (options.has_widths()) {
     notes[kRadius] = fmt::format("{}", options.radius);
     notes[kGrade] = fmt::format("{}", options.grade);
   }
@@ -702,12 +710,14 @@ void check_files_of_ranks(const Options& options) {
           "{}: several ranks write ugrid, mpas, off, xyz, lonlat, nodes and raw: choose one of these, "
           "and `pstripack convert` afterwards",
           output->file));
+  const std::string lines =
+      options.width_distance.empty() ? "" : methods::WidthDistance(options.width_distance).file;
   for (const std::string& file :
-       {options.density_file, options.width_file, options.width_region, options.region})
+       {options.density_file, options.width_file, options.width_region, options.region, lines})
     if (file == "-")
       throw std::runtime_error(
-          "--density-file -, --width-file -, --width-region -, --region -: several ranks cannot read stdin: "
-          "name a file");
+          "--density-file -, --width-file -, --width-region -, --width-distance -, --region -: several ranks "
+          "cannot read stdin: name a file");
 }
 
 /// The command, on all ranks.
@@ -768,15 +778,13 @@ void scvt(Options& options, Ranks& ranks) {
 }
 
 void scvt(Options& options) {
-  if (options.start.file.empty()
-          ? options.n == 0 && options.width == 0 && options.width_file.empty() && options.width_text.empty()
-          : options.n > 0)
+  if (options.start.file.empty() ? options.n == 0 && !options.has_widths() : options.n > 0)
     throw CLI::ValidationError("N", "give either N or widths, for new generators, or --start FILE");
   if (!options.width_region.empty() && options.width_text.empty())
     throw CLI::ValidationError("--width-region", "say also --width, that of the cells elsewhere");
-  if (!options.region.empty() && options.start.file.empty() && options.width_text.empty() &&
-      options.width_file.empty())
-    throw CLI::ValidationError("--region", "say also the widths there: --width or --width-file");
+  if (!options.region.empty() && options.start.file.empty() && !options.has_widths())
+    throw CLI::ValidationError("--region",
+                               "say also the widths there: --width, --width-file or --width-distance");
   const std::string& width = options.width_text;
   const bool is_name = !width.empty() && options.width == 0 && !methods::WidthFormula::is_one(width);
   if (is_name && !options.width_region.empty())
@@ -849,6 +857,23 @@ void add_scvt(CLI::App& app, Command& chosen) {
   sub->add_option("--width-region", options->width_region,
                   "GeoJSON polygons with properties width and transition, km, within --width elsewhere")
       ->type_name("FILE");
+  sub->add_option(
+         "--width-distance", options->width_distance,
+         "widths of NEAR km at the lines or polygons of a GeoJSON file, growing to FAR at KM km from them")
+      ->type_name("FILE:NEAR:FAR:KM")
+      ->check([](const std::string& text) {
+        try {
+          methods::WidthDistance{text};
+        } catch (const std::invalid_argument& e) {
+          return std::string(e.what());
+        }
+        return std::string();
+      })
+      ->excludes("--width")
+      ->excludes("--width-file")
+      ->excludes("--width-region")
+      ->excludes("--density")
+      ->excludes("--density-file");
   add_limited_area(*sub, options->region, options->sides)->excludes("--density")->excludes("--density-file");
   sub->add_option("--grade", options->grade,
                   "largest change of widths, km per km: widths above it are lowered [0.2]")

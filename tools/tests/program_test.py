@@ -1040,6 +1040,8 @@ def test_scvt_widths():
     write_json("region.json", polygon(ring(0, 60, 20, 50), width=400, transition="2000"))
     continues("--width 1000km --width-region region.json",
               "^pstripack: widths limited to a change of 0.2 km per km: .* values lowered", gives.format(808))
+    write_json("coast.json", {"type": "LineString", "coordinates": [[0, 0], [40, 20]]})
+    continues("--width-distance coast.json:500:2000:9000", gives.format(304))
     # A limited area: checkpoints have all generators.
     continues("--width 300km --region 10,50,10,50", "the widths give about 21[0-9] cells in the region")
     write("area.pts", "Type: channel\nUpper-lat: 30\nLower-lat: -30\n")  # half of the sphere
@@ -1113,6 +1115,8 @@ def test_scvt_command_lines_that_are_refused():
             "--width band:1,2,3,4": "width 'band:1,2,3,4': expected five numbers: INNER,OUTER,RADIUS,TRANSITION,LAT",
             "--width-region region.json 9": "--width-region: say also --width, that of the cells elsewhere",
             "--width ec60to30 --width-region region.json": "--width-region: not with ec60to30: say a width, as in 60km",
+            "--width-distance a.json:10:120": "'a.json:10:120': expected FILE:NEAR:FAR:KM, NEAR and KM above 0 and FAR at least",
+            "--width-distance a.json:10:120:900 --width 60km": "excludes",
             "--width qu60 --region circle:500,0,0": "--region: not with qu60: say a width, as in 60km",
             "--width 10km --region 0,0.7,0,0.7": "'0,0.7,0,0.7': these may be radians",
             "100 --region circle:500,0,0": "--region: say also the widths there",
@@ -1154,6 +1158,11 @@ def test_scvt_generators_and_densities_that_are_refused():
 
 def test_scvt_regions_of_widths_that_are_refused():
     box = ring(0, 9, 0, 9)
+    for shape, words in (({"type": "Feature", "geometry": {"type": "Point", "coordinates": [0, 0]}}, "lines or polygons"),
+                         ({"type": "LineString", "coordinates": [0, 0]}, "lists of [longitude, latitude]"),
+                         ({"type": "LineString", "coordinates": [[0, 0], [0, 91]]}, "longitudes within -540 to 540")):
+        write_json("coast.json", shape)
+        refuses(1, "scvt --width-distance coast.json:100:900:9000 -o failed.off", "coast.json: feature 1: expected " + words)
     across = [[170, 0], [-170, 0], [-170, 9], [170, 0]]
     for region, words in (
             *((polygon(box, **bad), "feature 1: it needs the property width, in km and above 0")

@@ -242,6 +242,30 @@ TEST(widths_of_regions, change_over_the_transitions_and_hold_holes_datelines_and
                std::runtime_error);
 }
 
+TEST(widths_of_distance, grow_from_lines_also_across_the_dateline_but_not_from_where_polygons_are_cut) {
+  const Table t =
+      widths_of_distance({{{170, 0}, {190, 0}}, {{-180, -60}, {-180, -90}, {180, -90}, {180, -60}}},
+                         WidthDistance("a:b.json:50:250:1000"), 6371);
+  const GridValues widths(t);
+  const auto width = [&](double lon, double lat) {
+    const Point p = point_sets::from_degrees(lon, lat);
+    double value = 0;
+    widths.at(1, &p, &value);
+    return value;
+  };
+  const double km = 1 / 6371.0 / kDegree;  // in degrees
+  for (const double lon : {171.0, 179.9, -180.0, -171.0}) EXPECT_NEAR(width(lon, 0), 50, 0.2 * 26);
+  EXPECT_NEAR(width(180, 500 * km), 150, 2);
+  EXPECT_NEAR(width(-170 + 500 * km, 0), 150, 2);
+  EXPECT_NEAR(width(-175, -900 * km), 230, 2);
+  EXPECT_EQ(width(180, -20), 250);
+  EXPECT_EQ(width(180, -75), 250);
+  EXPECT_EQ(width(0, 90), 250);
+  EXPECT_EQ(WidthDistance("a:b.json:50:250:1000").file, "a:b.json");
+  for (const char* const text : {"", "a", "1:2:3", "a:0:2:3", "a:2:1:3", "a:1:2:0", "a:1:2:km"})
+    EXPECT_THROW(WidthDistance{text}, std::invalid_argument) << text;
+}
+
 TEST(widths_in, are_those_asked_for_in_the_area_and_ten_widths_around_it_then_grow) {
   const double km = 1 / 6371.0 / kDegree;  // in degrees
   // The disc holds neither pole, and crosses the dateline.
