@@ -239,7 +239,7 @@ double arc(const Point& a, const Point& b) {
 /// and to the cell up to rounding, also where the triangle is obtuse and a kite or a part of it is negative.
 std::array<double, 3> kites_of(const MpasMesh& mesh, std::size_t vertex) {
   const Point& v = mesh.vertices[vertex];
-  std::array<Point, 3> point;
+  std::array<Point, 3> point{};
   for (std::size_t j = 0; j < 3; ++j)
     if (const Index e = mesh.edges_on_vertex[vertex][j]; e != kNone) point[j] = mesh.edge_point(at(e));
   std::array<double, 3> areas{};
