@@ -83,13 +83,15 @@ constexpr auto kEvaluations = "scvt_iterations", kDensity = "scvt_density",
                kExponent = "scvt_exponent", kMark = "scvt_mark", kEnergy = "scvt_energy_at_mark";
 
 // The options that are stored in them as they are.
-constexpr std::pair<const char*, std::string Options::*> kStored[] = {{kDensity, &Options::density},
-                                                                      {kDensityFile, &Options::density_file},
-                                                                      {kWidthFile, &Options::width_file},
-                                                                      {kWidth, &Options::width_text},
-                                                                      {kWidthRegion, &Options::width_region},
-                                                                      {kRegion, &Options::region},
-                                                                      {kSides, &Options::sides}};
+constexpr std::pair<const char*, std::string Options::*> kStored[] = {
+    {kDensity, &Options::density},
+    {kDensityFile, &Options::density_file},
+    {kWidthFile, &Options::width_file},
+    {kWidth, &Options::width_text},
+    {kWidthRegion, &Options::width_region},
+    {kWidthDistance, &Options::width_distance},
+    {kRegion, &Options::region},
+    {kSides, &Options::sides}};
 
 std::string note(const files::Notes& notes, const char* name) {
   const auto found = notes.find(name);
