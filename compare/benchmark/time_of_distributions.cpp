@@ -14,6 +14,7 @@
 #include "geometry/predicates.h"
 #include "measuring.h"
 #include "orders.h"
+#include "point_sets.h"
 
 namespace benchmark {
 namespace {
@@ -89,7 +90,10 @@ void print_row(const Row& row, const std::vector<Nodes>& randoms, int repeats) {
 
 void run_time_of_distributions(const std::vector<std::string>& only, int repeats) {
   std::vector<Row> rows;
-  for (const std::string& family : only) rows.push_back({family});
+  for (const std::string& family : only) {
+    point_sets::make(family, 12);  // throws if there is no such family, before others are measured
+    rows.push_back({family});
+  }
   if (only.empty()) {
     for (const char* order : {"given", "shuffled", "sorted", "rows"}) rows.push_back({"random", order});
     for (const point_sets::Distribution& d : point_sets::distributions()) rows.push_back({d.name});

@@ -105,7 +105,7 @@ class Reader {
           fail(fmt::format(
               "its side from longitude {:g} to {:g} goes around the globe: cut the polygon at 180, "
               "or write {:g} in place of {:g}",
-              before, lon, lon < before ? lon + 360 : lon - 360, lon));
+              before, lon, std::min(before, lon) + 360, std::min(before, lon)));
       }
       make_cap(corners);
       const auto [first, last] = std::pair(corners.front(), corners.back());
