@@ -103,7 +103,7 @@ void follow_great_circles(MapRegion& region) {
   }
 }
 
-// ---- files of MPAS-Limited-Area ---------------------------------------------------------------------------
+// ---- files of MPAS-Limited-Area -----------------------------------------------------------------------
 
 namespace {
 

@@ -206,6 +206,13 @@ files::WidthRegion region(double width, double transition,
   return {{1, {}, std::move(rings)}, width, transition};
 }
 
+double width_at(const GridValues& widths, double lon, double lat) {  // of a place in degrees
+  const Point p = point_sets::from_degrees(lon, lat);
+  double value = 0;
+  widths.at(1, &p, &value);
+  return value;
+}
+
 TEST(widths_of_regions, change_over_the_transitions_and_hold_holes_datelines_and_poles) {
   const auto box = [](double west, double south, double east, double north) {
     return std::vector<std::pair<double, double>>{
@@ -220,12 +227,7 @@ TEST(widths_of_regions, change_over_the_transitions_and_hold_holes_datelines_and
                         WidthFormula(120), 6371);
   EXPECT_NEAR(t.lat[1] - t.lat[0], 30 * km, 0.001);
   const GridValues widths(t);
-  const auto width = [&](double lon, double lat) {
-    const Point p = point_sets::from_degrees(lon, lat);
-    double value = 0;
-    widths.at(1, &p, &value);
-    return value;
-  };
+  const auto width = [&](double lon, double lat) { return width_at(widths, lon, lat); };
   for (const double lon : {1.0, 5.0, 39.0}) EXPECT_EQ(width(lon, 0), 30);
   EXPECT_NEAR(width(20, 0), 120, 1e-9);  // 10 degrees inside the hole
   EXPECT_NEAR(width(20, 20 + 500 * km), 75, 2);
@@ -247,12 +249,7 @@ TEST(widths_of_distance, grow_from_lines_also_across_the_dateline_but_not_from_w
       widths_of_distance({{{170, 0}, {190, 0}}, {{-180, -60}, {-180, -90}, {180, -90}, {180, -60}}},
                          WidthDistance("a:b.json:50:250:1000"), 6371);
   const GridValues widths(t);
-  const auto width = [&](double lon, double lat) {
-    const Point p = point_sets::from_degrees(lon, lat);
-    double value = 0;
-    widths.at(1, &p, &value);
-    return value;
-  };
+  const auto width = [&](double lon, double lat) { return width_at(widths, lon, lat); };
   const double km = 1 / 6371.0 / kDegree;  // in degrees
   for (const double lon : {171.0, 179.9, -180.0, -171.0}) EXPECT_NEAR(width(lon, 0), 50, 0.2 * 26);
   EXPECT_NEAR(width(180, 500 * km), 150, 2);
