@@ -107,18 +107,6 @@ void follow_great_circles(MapRegion& region) {
 
 namespace {
 
-std::string trimmed(const std::string& text) {
-  constexpr auto kBlanks = " \t\r";
-  const std::size_t begin = text.find_first_not_of(kBlanks);
-  return begin == text.npos ? "" : text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
-}
-
-std::string in_small_letters(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 class PtsFile {
  public:
   explicit PtsFile(const std::string& file) : file_(file) {
@@ -132,13 +120,12 @@ class PtsFile {
         corners_.push_back(place("a corner", {line, number}));
         continue;
       }
-      const std::string key = trimmed(line.substr(0, colon));
-      const auto known = std::find_if(kKeys.begin(), kKeys.end(), [&](const std::string& name) {
-        return in_small_letters(name) == in_small_letters(key);
-      });
+      const std::string key(trimmed(line.substr(0, colon)));
+      const auto known = std::find_if(kKeys.begin(), kKeys.end(),
+                                      [&](const std::string& name) { return lower(name) == lower(key); });
       if (known == kKeys.end())
         fail(number, fmt::format("unknown key '{}'{}", excerpt(key), did_you_mean(key, kKeys)));
-      if (!values_.emplace(*known, Value{trimmed(line.substr(colon + 1)), number}).second)
+      if (!values_.emplace(*known, Value{std::string(trimmed(line.substr(colon + 1))), number}).second)
         fail(number, *known + " a second time");
     }
   }
@@ -146,7 +133,7 @@ class PtsFile {
   /// `radius`: of the sphere, metres.
   MapRegion region(double radius) const {
     const auto& [text, line] = value("Type");
-    const std::string type = in_small_letters(text);
+    const std::string type = lower(text);
     if (type != "custom" && !corners_.empty())
       fail(line, fmt::format("the Type '{}' has no corners: only custom has", excerpt(text)));
     MapRegion region;

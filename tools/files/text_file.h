@@ -12,4 +12,9 @@ std::string contents_of(const std::string& file);
 /// bytes that are no UTF-8 are escaped, as in \n or \x1b.
 std::string excerpt(std::string_view text);
 
+/// Without blanks (spaces, tabs, \r, \f, \v) at its ends.
+std::string_view trimmed(std::string_view text);
+/// With a..z in place of A..Z; other bytes stay.
+std::string lower(std::string_view text);
+
 }  // namespace files

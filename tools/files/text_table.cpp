@@ -27,19 +27,6 @@ bool is_blank(char c) { return c == ' ' || c == ',' || is_space(c); }
 bool begins_comment(char c) { return c == '#' || c == '!' || c == '%'; }
 bool ends_word(char c) { return is_blank(c) || c == '#' || c == '!'; }
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-  return text;
-}
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return result;
-}
-
 /// Errors of spreadsheets. A line that begins with one is a row, no comment.
 constexpr std::string_view kErrors[] = {"#N/A", "#VALUE!", "#REF!", "#DIV/0!", "#NUM!", "#NAME?", "#NULL!"};
 std::string_view error_at(std::string_view text) {
