@@ -193,13 +193,15 @@ library](../relink.md#1-your-line).
 
 Unless a page says otherwise:
 
-- Every library has the routine. Nodes and [slots](../glossary.md) count from 1; angles are in radians, lengths in units of the radius.
+- All four libraries have the routine. Nodes and [slots](../glossary.md) count from 1; angles are in radians, lengths in
+  units of the radius.
 - Sizes are the smallest allowed; 6N-12 elements always suffice for LIST and LPTR. If *LIST, LPTR, LEND* share a row, LIST and
   LPTR have the first size, LEND the second. *in/out* is read and changed.
 - No routine is collective: in an MPI program any number of ranks may call any number of times (TRMESH is collective on
   request). Any number of threads may call it at once with their own arrays.
-- No routine ends the program or prints. A [code](ier.md) marked *new*, which the original does not have, also prints one
-  line on stderr that says why.
+- No routine ends the program. Only TRPRNT, TRLPRT and VORONOI_POLY_COUNT write to standard output, and EDGE and DELNOD
+  with some of their codes. A [code](ier.md) marked *new*, which the original does not have, also prints one line on
+  stderr that says why.
 - The source is R. J. Renka, "Algorithm 772: STRIPACK", ACM Transactions on Mathematical Software 23 (1997) 416-434."""
 
 INDEX_TAIL = """## Not in these libraries
@@ -220,7 +222,7 @@ target `pstripack::stripack_f90`. Each is a separate object, so a routine of the
 | `d_pi()`, `r_pi()` | pi, real(8) and real(4) |
 | `call d3vec_normalize(n, x, y, z)`, `call r83vec_normalize(n, x, y, z)` | scales n vectors, real(8), to length 1, in place; zero vectors stay |
 
-Reals are real(8), as in that text, except `r_pi`. `n` is a 4-byte default integer, or an 8-byte one on little-endian machines.
+Reals are real(8), as in that text, except `r_pi`. `n` may be a 4-byte integer; on little-endian machines also an 8-byte one.
 A program in single precision keeps its own `arc_cosine` and `r83vec_normalize`.
 
 ## How these pages are made
@@ -266,14 +268,17 @@ IER_HEAD = """# Codes: what they mean, what to do
 
 0 is success. -1, -2 and numbers above 0 are STRIPACK's own codes and silent. The others are *new*: they also print one
 line on stderr with the [node](../glossary.md) and the reason. Each routine's page gives the state of its arrays; after a
-negative code of TRMESH they are unchanged. The library never stops your program. OpenMP may, without memory.
+negative code of TRMESH they are unchanged. The library never stops your program. OpenMP's
+run-time library does if it cannot get memory.
 
-A number below 0 has one meaning everywhere, which `pstripack_strerror` returns:"""
+A number below -2 has one meaning everywhere, which `pstripack_strerror` returns. -1 and -2 depend on the routine
+([below](#stripacks-own-codes)); in our own calls they mean this, too:"""
 
-IER_MIDDLE = """**L > 0 of TRMESH**: drop one of the two nodes. Often a pole is in each column of a grid, or a meridian at 0 and 360.
+IER_MIDDLE = """**L > 0 of TRMESH**: drop one of the two nodes. Often every column of a grid repeats the pole, or a
+meridian stands at 0 and at 360 degrees.
 
-**Distributed meshes.** Every rank gets the same code; the mesh is then empty. Rank 0 prints the line; in `home`
-and for -8 every rank does. `mesh%error_points` returns the points of -5, -9 and -10.
+**Distributed meshes.** Every rank gets the same code; the mesh is then empty. Rank 0 prints the line. `home`,
+and calls that return -8, print on every rank. `mesh%error_points` returns the points of -5, -9 and -10.
 
 **Centroidal tessellations** return [a message](../scvt-interface.md#errors) and print nothing.
 

@@ -53,8 +53,8 @@ module stripack
     ! The lists are canonical: nodes in increasing order, the neighbours of each in consecutive slots; an
     ! interior node starts with its smallest neighbour, a boundary node with its first boundary neighbour.
     ! Threads and ranks do not change the bytes. `PSTRIPACK_ORDER=original` returns the original's lists
-    ! wherever its triangulation is correct; `PSTRIPACK_ORDER=bitwise` also where it is not exact, with its
-    ! IER.
+    ! wherever its triangulation is correct; `PSTRIPACK_ORDER=bitwise` also returns them where the
+    ! triangulation is not exactly Delaunay, and then the original's IER.
     ! IER  0 done; -1 N < 3; -2 nodes 1, 2, 3 lie on one great circle, by exact sign: number others first;
     !      L > 0 nodes L and M coincide, L < M; M is the smallest such index; -4 N > 357,913,943: 6N-11 does
     !      not fit 32 bits; in libstripack_i8 too (new); -5 a coordinate is not finite, or a node is (0,0,0)
@@ -222,14 +222,14 @@ module stripack
 
     ! Inserts a node outside the triangles from which part of the boundary is visible.
     ! Connects node KK to the boundary nodes visible from it, clockwise from I1 to I2; those between I1 and I2
-    ! become interior. Arcs are not optimised: ADDNOD also optimises them.
+    ! become interior. It does not optimise arcs; ADDNOD does.
     subroutine bdyadd(kk, i1, i2, list, lptr, lend, lnew)
       integer :: kk, i1, i2, list(*), lptr(*), lend(kk), lnew
     end subroutine
 
     ! Inserts a node outside the triangles from which the whole boundary is visible.
-    ! Connects node KK to all boundary nodes; the triangles then cover the sphere. Arcs are not optimised:
-    ! ADDNOD also optimises them.
+    ! Connects node KK to all boundary nodes; the triangles then cover the sphere. It does not optimise arcs;
+    ! ADDNOD does.
     subroutine covsph(kk, n0, list, lptr, lend, lnew)
       integer :: kk, n0, list(*), lptr(*), lend(kk), lnew
     end subroutine

@@ -71,6 +71,17 @@ subroutine another
 end subroutine
 EOF
 
+cat > swap.f90 << 'EOF'
+subroutine swap
+  print '(a)', 'own swap'
+end subroutine
+EOF
+cat > swaps.f90 << 'EOF'
+subroutine swaps
+  call swap
+end subroutine
+EOF
+
 echo "== one file with both"
 gfortran -c main.f90 both.f90
 nm -A ./*.o | grep -i trmesh > out
@@ -78,13 +89,19 @@ has out 'U trmesh_'
 has out 'T trmesh_'
 gfortran main.o both.o -o model && ./model > out
 has out 'IER 99'
-ar rc libgeo_rest.a both.o
+gfortran -c swap.f90 swaps.f90
+ar rc libgeo.a both.o swap.o swaps.o
+run ../relink.md 'nm -A --defined-only libgeo_rest.a'
+has out 'both.o:'
+has out 'swap.o:'
 run ../relink.md 'objcopy --localize-symbols'
+sed 's/call another/call another; call swaps/' main.f90 > model.f90
 # shellcheck disable=SC2046  # several words
-gfortran main.o libgeo_rest.a -o model $(pkg-config --libs stripack)
+gfortran model.f90 libgeo_rest.a -o model $(pkg-config --libs stripack)
 PSTRIPACK_REPORT=1 ./model > out 2> err
 has out 'IER 0'
 has out 'another routine'
+has out 'own swap'
 has err 'pstripack: threads n=6 '
 
 echo "== helpers of the Fortran 90 text"

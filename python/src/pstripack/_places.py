@@ -191,7 +191,8 @@ class Places(Values):
         Returns
         -------
         scipy.sparse.csr_matrix, shape (number of places, n)
-            Places are counted in C order. The sum of a row is 1; the weights of "linear" and "natural" are positive.
+            Places are counted in C order. The sum of a row is 1, except of places outside the
+            triangles; the weights of "linear" and "natural" are positive.
 
         Raises
         ------
