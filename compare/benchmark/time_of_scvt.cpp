@@ -1,6 +1,7 @@
 #include "time_of_scvt.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
@@ -108,6 +109,7 @@ void run_descents(const DescentSettings& settings) {
       n, settings.tolerance, settings.evaluations, "method", "first", "evaluations", "cpu seconds",
       "gradient", "energy N");
   std::fflush(stdout);
+  std::FILE* const table = fdopen(dup(STDOUT_FILENO), "w");  // stdout of the process below is stderr
   for (const Descent& d : kDescents)
     in_its_own_process([&] {
       const ConstantDensity density;
@@ -123,14 +125,15 @@ void run_descents(const DescentSettings& settings) {
         before = p.generators;
         of_this = static_cast<double>(p.evaluations * p.generators) / settings.n;
         if (p.generators == settings.n)
-          fmt::print("{:<8} {:<7} {:>12.1f} {:>12.3f} {:>9.2e} {:>10.5f}\n",
+          fmt::print(table, "{:<8} {:<7} {:>12.1f} {:>12.3f} {:>9.2e} {:>10.5f}\n",
                      d.method == Method::lloyd ? "lloyd" : "newton", name_of(d.first), of_levels + of_this,
                      cpu_seconds() - start, p.gradient, p.energy * static_cast<double>(p.generators));
         return true;
       };
       descend(n, density, d.first, options);
-      std::fflush(stdout);
+      std::fflush(table);
     });
+  std::fclose(table);
 }
 
 }  // namespace benchmark
