@@ -10,6 +10,7 @@
 
 #include "child_process.h"
 #include "original.h"
+#include "support/cases.h"
 
 namespace differential {
 namespace {
@@ -118,7 +119,8 @@ std::vector<NodeSet> make_sets() {
   static constexpr const char* kinds[] = {"random",    "half-sphere", "cap",         "lattice 1",
                                           "lattice 2", "lattice 3",   "global grid", "regional grid",
                                           "ring",      "copies"};
-  constexpr int kinds_count = static_cast<int>(std::size(kinds)), each = 240;
+  constexpr int kinds_count = static_cast<int>(std::size(kinds));
+  const int each = cases(240);
   std::vector<NodeSet> sets;
   for (int i = 0; i < each; ++i)
     for (int kind = 0; kind < kinds_count; ++kind) {
