@@ -96,7 +96,7 @@ mpirun.")
 endif()
 if(PSTRIPACK_TOOLS)
   debian_package(tools NAME pstripack SECTION science
-    DEPENDS libpstripack${soversion} librsvg2-bin SUGGESTS pstripack-mpi libmagics++-data libjs-three
+    DEPENDS libpstripack${soversion} librsvg2-bin SUGGESTS pstripack-mpi libmagics++-data
     SUMMARY "Delaunay triangulation on the sphere: commands"
     DESCRIPTION "${about}This package has pstripack, which makes meshes of files of nodes, and
 stripack-compare, which runs an original STRIPACK beside this one and
@@ -108,7 +108,7 @@ if(TARGET pstripack_python)
   debian_package(python NAME python3-pstripack SECTION python
     DEPENDS libpstripack${soversion} "python3 (>= ${this_python})"
             "python3 (<< ${CMAKE_MATCH_1}.${next_minor})" python3-numpy
-    SUGGESTS python3-scipy python3-pandas python3-xarray python3-geopandas python3-matplotlib libjs-three
+    SUGGESTS python3-scipy python3-pandas python3-xarray python3-geopandas python3-matplotlib
     SUMMARY "Delaunay triangulation on the sphere: Python package"
     DESCRIPTION "${about}This package has the Python package pstripack: triangulations, Voronoi
 diagrams, searches and interpolation of NumPy arrays.")

@@ -15,8 +15,6 @@ from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 from setuptools.command.sdist import sdist
 
-# Draws globes. A source distribution or wheel that is made where this is has it; others look for it when they run.
-THREE = Path(os.environ.get("PSTRIPACK_THREE", "/usr/share/javascript/three/three.min.js"))
 HERE = Path(__file__).resolve().parent
 # In a source distribution the parts of the project are in a folder.
 PROJECT = HERE / "project" if (HERE / "project").is_dir() else HERE.parent
@@ -46,8 +44,6 @@ class CMakeBuild(build_ext):
         target = Path(self.get_ext_fullpath(extension.name)).resolve()
         target.parent.mkdir(parents=True, exist_ok=True)
         self.copy_file(str(built), str(target))
-        if THREE.is_file():
-            self.copy_file(str(THREE), str(target.with_name("three.min.js")))
 
 
 class SourcesOfProject(sdist):
@@ -60,8 +56,6 @@ class SourcesOfProject(sdist):
             else:
                 target.parent.mkdir(parents=True, exist_ok=True)
                 shutil.copyfile(source, target)
-        if THREE.is_file():
-            shutil.copyfile(THREE, Path(base_dir) / "src" / "pstripack" / "three.min.js")
 
 
 project = (PROJECT / "CMakeLists.txt").read_text()

@@ -3,7 +3,7 @@
 
   make_site.py DOXYGEN OUT [PSTRIPACK]     in OUT/html; ends with 1 if Doxygen has a warning
 
-With the program pstripack, and three.js, the first page has a globe of the tutorial's stations in place of its picture.
+With the program pstripack the first page has a globe of the tutorial's stations in place of its picture.
 
 Doxygen gets copies, in OUT/pages: GitHub's anchors as labels, links between pages as references, files that pages link
 to beside the site; and comments of the C headers marked as documentation.

@@ -14,8 +14,7 @@ std::vector<T> items(const Array<T>& array) {
 
 py::str globe(const std::string& title, const Array<double>& lon, const Array<double>& lat,
               const Array<std::int32_t>& simplices, const Array<double>& values, const std::string& name,
-              const std::string& unit, bool shows_values, const std::string& coasts,
-              const std::string& three) {
+              const std::string& unit, bool shows_values, const std::string& coasts) {
   pictures::Globe globe;
   globe.title = title;
   globe.first_number = 0;
@@ -32,7 +31,7 @@ py::str globe(const std::string& title, const Array<double>& lon, const Array<do
     if (!coasts.empty())
       globe.coasts = pictures::read_shapefile(
           coasts == "yes" ? pictures::natural_earth(pictures::kGlobeDetail) : coasts);
-    return pictures::globe_page(globe, pictures::three_js(three));
+    return pictures::globe_page(globe);
   });
 }
 

@@ -7,12 +7,10 @@
 namespace bindings {
 
 /// The page of a globe whose cells have the colours of `values`, which readers see if `shows_values`.
-/// `coasts`: a shapefile; "yes": Natural Earth's; empty: no
-/// coast lines. `three`: the file of three.js; empty: the usual one. Throws std::runtime_error if a file is
-/// missing.
+/// `coasts`: a shapefile; "yes": Natural Earth's; empty: no coast lines. Throws std::runtime_error if the
+/// file is missing.
 py::str globe(const std::string& title, const Array<double>& lon, const Array<double>& lat,
               const Array<std::int32_t>& simplices, const Array<double>& values, const std::string& name,
-              const std::string& unit, bool shows_values, const std::string& coasts,
-              const std::string& three);
+              const std::string& unit, bool shows_values, const std::string& coasts);
 
 }  // namespace bindings

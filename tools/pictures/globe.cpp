@@ -1,13 +1,7 @@
 #include "pictures/globe.h"
 
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
-#include <fstream>
-#include <iterator>
-#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -16,8 +10,6 @@
 
 namespace pictures {
 namespace {
-
-constexpr const char* kThree = "/usr/share/javascript/three/three.min.js";
 
 /// A text of JSON that may stand in an element <script>.
 std::string quoted(const std::string& text) {
@@ -115,33 +107,10 @@ std::string data_of(const Globe& globe) {
 
 }  // namespace
 
-std::string three_js(const std::string& file) {
-  const char* const from_environment = std::getenv("PSTRIPACK_THREE");
-  const std::string name = !file.empty() ? file : from_environment != nullptr ? from_environment : kThree;
-  std::ifstream in(name, std::ios::binary);
-  if (!in)
-    throw std::runtime_error(
-        name + ": cannot be opened: " + std::strerror(errno) +
-        ": globes need three.js (Debian: libjs-three; npm: three@0.160, build/three.min.js); name it by "
-        "--three-file, in Python three_file=, or PSTRIPACK_THREE");
-  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (text.find(".WebGLRenderer=") == std::string::npos && text.find(".WebGLRenderer =") == std::string::npos)
-    throw std::runtime_error(name +
-                             ": not three.js as one script: three.min.js of a release from 111 to 160");
-  // A script ends at this word, wherever it stands. In JavaScript it only occurs in texts.
-  for (std::size_t at = 0; (at = text.find("</script", at)) != std::string::npos; at += 2)
-    text.insert(at + 1, "\\");
-  return text;
-}
-
-std::string globe_page(const Globe& globe, const std::string& three) {
+std::string globe_page(const Globe& globe) {
+  constexpr std::string_view kMark = "/*DATA*/";
   std::string page(kGlobeHtml);
-  const auto insert = [&](std::string_view mark, const std::string& text) {
-    page.replace(page.find(mark), mark.size(), text);
-  };
-  insert("/*DATA*/", data_of(globe));
-  insert("/*THREE*/", three);
-  return page;
+  return page.replace(page.find(kMark), kMark.size(), data_of(globe));
 }
 
 }  // namespace pictures

@@ -1,5 +1,5 @@
 #pragma once
-// A globe to turn: one HTML file with the mesh, three.js and the script of globe.html.
+// A globe to turn: one HTML file with the mesh and the script of globe.html.
 
 #include <array>
 #include <cstdint>
@@ -31,11 +31,7 @@ struct Globe {
   std::optional<double> radius;  ///< of the first view, in degrees; none: all nodes
 };
 
-/// The text of three.js: of `file`, or of the one that PSTRIPACK_THREE names, or of Debian's. Throws
-/// std::runtime_error if it is missing or an ES module.
-std::string three_js(const std::string& file);
-
 /// The HTML file. It needs no other file and no network.
-std::string globe_page(const Globe& globe, const std::string& three);
+std::string globe_page(const Globe& globe);
 
 }  // namespace pictures

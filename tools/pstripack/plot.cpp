@@ -29,7 +29,7 @@ struct Options {
   std::string box, range, palette;
   bool dots = false;
   bool coasts = false;
-  std::string coast_file, three_file;
+  std::string coast_file;
   std::optional<std::string> title;
   std::optional<double> width;
 };
@@ -141,9 +141,6 @@ void plot(Options& options) {
   mesh_options.coast_file = options.coast_file;
   if (globe && (mesh_options.lonlat || options.width || options.dots))
     throw CLI::ValidationError("--to", "a globe has no --view lonlat, --box, --dots or --width");
-  if (!globe && !options.three_file.empty())
-    throw CLI::ValidationError("--three-file", "only a globe, FILE.html, needs three.js");
-  const std::string three = globe ? pictures::three_js(options.three_file) : "";
   pictures::expect_converter(kind);
 
   options.input.read.with_columns = mesh_options.colour == MeshOptions::Colour::value;
@@ -173,7 +170,7 @@ void plot(Options& options) {
                                            what_is_drawn(mesh, mesh_options.what));
     std::string picture;
     try {
-      picture = globe ? globe_page(mesh_globe(mesh, mesh_options), three) : mesh_picture(mesh, mesh_options);
+      picture = globe ? globe_page(mesh_globe(mesh, mesh_options)) : mesh_picture(mesh, mesh_options);
     } catch (const std::runtime_error& e) {
       throw std::runtime_error(nodes.file + ": " + e.what());
     }
@@ -228,9 +225,6 @@ void add_plot(CLI::App& app, Command& chosen) {
   sub->add_flag("--coasts", options->coasts, "coast lines of Natural Earth, from Debian's libmagics++-data");
   sub->add_option("--coast-file", options->coast_file, "coast lines of this shapefile instead")
       ->type_name("FILE");
-  sub->add_option("--three-file", options->three_file,
-                  "three.js for a globe [PSTRIPACK_THREE, or that of Debian's libjs-three]")
-      ->type_name("FILE");
   sub->add_option("--title", options->title, "title of the picture [file and counts]")->type_name("TEXT");
   sub->add_option("--width", options->width, fmt::format("width of the picture [{}]", kWidth))
       ->type_name("PIXELS")
@@ -252,7 +246,7 @@ Colours:
 Triangles of UGRID, MPAS and OFF files are drawn as they are; other nodes are triangulated first. Nodes that do not
 cover the sphere fill the picture; their boundary is orange. At most 200,000 nodes may be in view: choose a part by
 --view and --zoom. PNG needs rsvg-convert (Debian: librsvg2-bin). A globe is one file for any browser, without
-network: it holds the mesh, of any size, and three.js (Debian: libjs-three).)");
+network, that holds the mesh, of any size.)");
 
   sub->callback([=, &chosen] { chosen = [=] { plot(*options); }; });
 }

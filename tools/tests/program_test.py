@@ -718,7 +718,6 @@ def test_pictures():
 
 def test_pictures_that_are_refused():
     output("points random 300 -o nodes.txt")
-    write("module.js", "export { WebGLRenderer };")
     for code, arguments, words in (
             (2, "-o picture.gif", "picture.gif: expected FILE.svg, FILE.png or FILE.html"),
             (2, "-o c.svg --view mercator", "--view: mercator: expected orthographic, lonlat"),
@@ -737,13 +736,8 @@ def test_pictures_that_are_refused():
             (2, "-o c.svg --colour area --range 5,2", "--range: '5,2': expected LOW,HIGH, the lower first"),
             (2, "-o c.svg --range 2,5", "--range: a colour bar is needed: --colour area or a column of numbers"),
             (2, "-o c.html --view lonlat", "a globe has no --view lonlat, --box, --dots or --width"),
-            (2, "-o c.html --width 500", "a globe has no --view lonlat, --box, --dots or --width"),
-            (2, "-o c.svg --three-file module.js", "only a globe, FILE.html, needs three.js"),
-            (1, "-o c.html --three-file no.js",
-             "no.js: cannot be opened: No such file or directory: globes need three.js (Debian: libjs-three"),
-            (1, "-o c.html --three-file module.js", "module.js: not three.js as one script")):
+            (2, "-o c.html --width 500", "a globe has no --view lonlat, --box, --dots or --width")):
         refuses(code, "plot nodes.txt " + arguments, words)
-    refuses(1, "plot nodes.txt -o c.html", "module.js: not three.js as one script", env={"PSTRIPACK_THREE": "module.js"})
 
 
 # Values.

@@ -296,8 +296,7 @@ class Delaunay(Places, Measures, Presentation):
 
     def globe(self, values: Optional[ArrayLike] = None, file: "Optional[Union[str, os.PathLike[str]]]" = None, *,
               title: Optional[str] = None, name: str = "value", unit: str = "",
-              coasts: "Union[bool, str, os.PathLike[str]]" = False,
-              three_file: "Optional[Union[str, os.PathLike[str]]]" = None) -> Globe:
+              coasts: "Union[bool, str, os.PathLike[str]]" = False) -> Globe:
         """A globe of Voronoi cells, to be turned: a page for any browser. Notebooks show it.
 
         Parameters
@@ -313,9 +312,6 @@ class Delaunay(Places, Measures, Presentation):
             What the values are, and their unit.
         coasts : bool or path
             True: coast lines of Natural Earth, from Debian's libmagics++-data. A path: those of a shapefile in degrees.
-        three_file : path, optional
-            The file three.min.js, of release 111 to 160. Default: that which the environment variable PSTRIPACK_THREE
-            names, or the wheel's, or that of Debian's libjs-three.
 
         Returns
         -------
@@ -325,7 +321,7 @@ class Delaunay(Places, Measures, Presentation):
         Raises
         ------
         RuntimeError
-            If there is no three.js, or no coast lines.
+            If there are no coast lines.
 
         Examples
         --------
@@ -334,7 +330,7 @@ class Delaunay(Places, Measures, Presentation):
         <pstripack globe of 4 nodes, ... MB>
         """
         colours = None if values is None else self._enter(values, self.npoints)
-        return globe(self, colours, file, title, name, unit, coasts, three_file)
+        return globe(self, colours, file, title, name, unit, coasts)
 
     def _repr_html_(self) -> str:
         return notebook_html(self)

@@ -13,11 +13,9 @@ from ._arrays import real, to_lonlat
 if TYPE_CHECKING:
     from ._delaunay import Delaunay
 
-#: A notebook shows globes of at most this number of nodes by itself: it keeps about 2 MB of each.
+#: A notebook shows globes of at most this number of nodes by itself: it keeps up to 1 MB of each.
 MOST_NODES_IN_NOTEBOOKS = 20000
 _EARTH_RADIUS = 6371.0
-# Wheels may hold three.js.
-_OWN_THREE = Path(__file__).parent / "three.min.js"
 
 
 class Globe:
@@ -60,8 +58,7 @@ class Globe:
 
 
 def globe(mesh: "Delaunay", values: Optional[ArrayLike], file: "Optional[Union[str, os.PathLike[str]]]", title: Optional[str],
-          name: str, unit: str, coasts: "Union[bool, str, os.PathLike[str]]",
-          three_file: "Optional[Union[str, os.PathLike[str]]]") -> Globe:
+          name: str, unit: str, coasts: "Union[bool, str, os.PathLike[str]]") -> Globe:
     """See :meth:`Delaunay.globe`."""
     if values is None:
         colours, name, unit = mesh.cell_areas * _EARTH_RADIUS * _EARTH_RADIUS, "area of a cell", "km²"
@@ -70,13 +67,10 @@ def globe(mesh: "Delaunay", values: Optional[ArrayLike], file: "Optional[Union[s
         colours = np.require(real(values), np.float64, ["A", "C"])
         if colours.ndim != 1:
             raise ValueError(f"values must be one for each of {mesh.npoints} nodes; their shape is {colours.shape}")
-    if three_file is None and "PSTRIPACK_THREE" not in os.environ and _OWN_THREE.exists():
-        three_file = _OWN_THREE
     lon, lat = to_lonlat(mesh.points)
     page = _core.globe(f"{mesh.npoints:,} nodes" if title is None else title, np.ascontiguousarray(lon), np.ascontiguousarray(lat),
                        mesh.simplices, colours, name, unit, values is not None,
-                       "yes" if coasts is True else os.fspath(coasts) if coasts else "",
-                       "" if three_file is None else os.fspath(three_file))
+                       "yes" if coasts is True else os.fspath(coasts) if coasts else "")
     result = Globe(page, mesh.npoints)
     if file is not None:
         result.save(file)
@@ -85,11 +79,7 @@ def globe(mesh: "Delaunay", values: Optional[ArrayLike], file: "Optional[Union[s
 
 def notebook_html(mesh: "Delaunay") -> str:
     """The globe of a mesh that is the result of a notebook's cell; or its repr and a line that says why there is none."""
-    if mesh.npoints > MOST_NODES_IN_NOTEBOOKS:
-        reason = f"more than {MOST_NODES_IN_NOTEBOOKS} nodes: a globe would make the notebook large; globe() shows it"
-    else:
-        try:
-            return mesh.globe()._repr_html_()
-        except RuntimeError as error:  # no three.js
-            reason = f"no globe: {error}"
+    if mesh.npoints <= MOST_NODES_IN_NOTEBOOKS:
+        return mesh.globe()._repr_html_()
+    reason = f"more than {MOST_NODES_IN_NOTEBOOKS} nodes: a globe would make the notebook large; globe() shows it"
     return f"<pre>{html.escape(repr(mesh))}</pre><p>{html.escape(reason)}</p>"
