@@ -246,6 +246,22 @@ class Picture {
   FormattedText& out_;
 };
 
+/// Draws a picture of lists: calls line(node, slot, next slot) for all slots of the nodes for which
+/// is_wanted(node). line() is false if it cannot read a slot.
+template <class Real, class Int, class IsWanted, class Line>
+PlotStatus draw(Picture<Real, Int>& picture, std::string_view what, Int n, const Nodes<Real>& nodes,
+                const Int* lptr, const Int* lend, const IsWanted& is_wanted, const Line& line) {
+  picture.begin(what);
+  ListWalk<Int> walk(n, lptr);
+  for (Int node = 1; node <= n; ++node) {
+    bool readable = true;
+    const auto visit = [&](Int slot, Int next) { readable = readable && line(node, slot, next); };
+    if (is_wanted(node) && !(walk(lend[node - 1], visit) && readable)) return PlotStatus::broken_lists;
+  }
+  picture.finish(n, nodes);
+  return PlotStatus::done;
+}
+
 /// TRPLOT: the arcs with at least one end in the window, as straight lines, cut at the horizon and the rim.
 template <class Real, class Int>
 PlotStatus plot_triangulation(const PlotFrame<Real, Int>& frame, const ListsView<Int>& lists,
@@ -254,27 +270,15 @@ PlotStatus plot_triangulation(const PlotFrame<Real, Int>& frame, const ListsView
   Picture<Real, Int> picture(frame, out);
   if (const PlotStatus status = picture.check(n >= 3); status != PlotStatus::done) return status;
   if (!can_be_drawn(n, nodes)) return PlotStatus::bad_node;
-
-  picture.begin("Delaunay triangulation");
-  ListWalk<Int> walk(n, lists.lptr);
-  bool readable = true;
-  for (Int a = 1; a <= n && readable; ++a) {
-    const Seen<Real> from = picture.view(nodes[a]);
-    if (!picture.view.in_window(from)) continue;
-    const bool closed = walk(lists.lend[a - 1], [&](Int, Int slot) {
-      const Int entry = lists.list[slot - 1], b = entry < 0 ? -entry : entry;
-      if (b < 1 || b > n) {
-        readable = false;
-        return;
-      }
-      const Seen<Real> to = picture.view(nodes[b]);
-      if (b > a || !picture.view.in_window(to)) picture.line(from, to);  // each arc is met from both ends
-    });
-    readable = readable && closed;
-  }
-  if (!readable) return PlotStatus::broken_lists;
-  picture.finish(n, nodes);
-  return PlotStatus::done;
+  const auto is_seen = [&](Int node) { return picture.view.in_window(picture.view(nodes[node])); };
+  return draw(picture, "Delaunay triangulation", n, nodes, lists.lptr, lists.lend, is_seen,
+              [&](Int a, Int slot, Int) {
+                const Int entry = lists.list[slot - 1], b = entry < 0 ? -entry : entry;
+                if (b < 1 || b > n) return false;
+                if (b > a || !is_seen(b))  // each arc is met from both ends
+                  picture.line(picture.view(nodes[a]), picture.view(nodes[b]));
+                return true;
+              });
 }
 
 /// VRPLOT: the edges of the Voronoi cells with at least one end in the window, likewise. listc, lptr, lend,
@@ -287,26 +291,15 @@ PlotStatus plot_voronoi(const PlotFrame<Real, Int>& frame, Int n, const Nodes<Re
   const bool counts_are_good = n >= 3 && nt % 2 == 0 && nt / 2 == n - 2;
   if (const PlotStatus status = picture.check(counts_are_good); status != PlotStatus::done) return status;
   if (!can_be_drawn(n, nodes) || !can_be_drawn(nt, vertices)) return PlotStatus::bad_node;
-
-  picture.begin("Voronoi diagram");
-  ListWalk<Int> walk(n, lptr);
-  bool readable = true;
-  for (Int node = 1; node <= n && readable; ++node) {
-    const bool closed = walk(lend[node - 1], [&](Int slot, Int next) {
-      const Int g = listc[slot - 1], h = listc[next - 1];
-      if (g < 1 || g > nt || h < 1 || h > nt) {
-        readable = false;
-        return;
-      }
-      const Seen<Real> from = picture.view(vertices[g]), to = picture.view(vertices[h]);
-      // An edge is met in both directions, once in each of its two cells.
-      if (picture.view.in_window(from) && (h > g || !picture.view.in_window(to))) picture.line(from, to);
-    });
-    readable = readable && closed;
-  }
-  if (!readable) return PlotStatus::broken_lists;
-  picture.finish(n, nodes);
-  return PlotStatus::done;
+  const auto is_any = [](Int) { return true; };
+  return draw(picture, "Voronoi diagram", n, nodes, lptr, lend, is_any, [&](Int, Int slot, Int next) {
+    const Int g = listc[slot - 1], h = listc[next - 1];
+    if (g < 1 || g > nt || h < 1 || h > nt) return false;
+    const Seen<Real> from = picture.view(vertices[g]), to = picture.view(vertices[h]);
+    // An edge is met in both directions, once in each of its two cells.
+    if (picture.view.in_window(from) && (h > g || !picture.view.in_window(to))) picture.line(from, to);
+    return true;
+  });
 }
 
 }  // namespace pstripack
