@@ -124,26 +124,14 @@ std::string path_of_mpirun() {
 }
 
 /// True if `mpirun --version` names Open MPI. The other supported launcher is Hydra, of MPICH and Intel MPI.
-bool is_open_mpi(std::string mpirun) {
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) fail(std::string("pipe: ") + std::strerror(errno), 1);
-  const pid_t child = fork();
-  if (child < 0) fail(std::string("fork: ") + std::strerror(errno), 1);
-  if (child == 0) {
-    dup2(ends[1], STDOUT_FILENO);
-    dup2(Descriptor(open("/dev/null", O_RDONLY)).get(), STDIN_FILENO);
-    std::string option = "--version";
-    char* command[] = {mpirun.data(), option.data(), nullptr};
-    run(command);
-  }
-  close(ends[1]);
-  const Descriptor version(ends[0]);
+bool is_open_mpi(const std::string& mpirun) {
+  setenv("PSTRIPACK_MPIRUN", mpirun.c_str(), 1);  // a shell need not know how to quote it
+  std::FILE* const version = popen("\"$PSTRIPACK_MPIRUN\" --version < /dev/null", "r");
+  if (version == nullptr) fail(std::string("popen: ") + std::strerror(errno), 1);
   std::string text;
   char piece[256];
-  for (ssize_t size; (size = read(version.get(), piece, sizeof piece)) > 0;)
-    text.append(piece, static_cast<std::size_t>(size));
-  int status = 0;
-  waitpid(child, &status, 0);
+  while (std::fgets(piece, sizeof piece, version) != nullptr) text += piece;
+  const int status = pclose(version);
   if (status != 0) {  // the child has said why
     const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     fail(mpirun + " --version: exit code " + std::to_string(code), code);

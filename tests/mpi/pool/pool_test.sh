@@ -426,7 +426,7 @@ EOF
     grep -q "^OMPI_MCA_oob_tcp_keepalive_$setting\$" mpirun.environment || fail "keepalive: $setting"
   done
   PSTRIPACK_MPIRUN=/no/mpirun "$RUN" -n 2 true 2> mpirun.err && fail "no mpirun"
-  grep -q '/no/mpirun: No such file' mpirun.err || fail "no mpirun: message"
+  grep -q '/no/mpirun: not found' mpirun.err || fail "no mpirun: message"
   printf '#!/bin/sh\necho cannot >&2; exit 3\n' > mpirun
   PSTRIPACK_MPIRUN=./mpirun "$RUN" -n 2 true 2> mpirun.err
   [ $? -eq 3 ] || fail "an mpirun that fails: exit code"
