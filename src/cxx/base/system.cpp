@@ -13,7 +13,6 @@
 
 #if defined(__linux__)
 #include <sched.h>
-#include <sys/random.h>
 #include <sys/syscall.h>
 #elif defined(__APPLE__)
 #include <crt_externs.h>
@@ -53,18 +52,6 @@ const char* name_of_this_program() {
   return program_invocation_short_name;
 #else
   return getprogname();  // BSD, macOS
-#endif
-}
-
-bool draw_random(void* bytes, std::size_t size) {
-#if defined(PSTRIPACK_LINUX)
-  return getrandom(bytes, size, GRND_NONBLOCK) == static_cast<ssize_t>(size);
-#else
-  const int file = open("/dev/urandom", O_RDONLY | O_CLOEXEC);
-  if (file < 0) return false;
-  const bool done = read(file, bytes, size) == static_cast<ssize_t>(size);
-  close(file);
-  return done;
 #endif
 }
 

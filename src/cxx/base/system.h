@@ -26,9 +26,6 @@ std::string path_of_this_program();
 /// The name that this program was started by, without folders.
 const char* name_of_this_program();
 
-/// Fills `size` <= 256 bytes with random numbers, without waiting for any. False if the system has none.
-bool draw_random(void* bytes, std::size_t size);
-
 /// As socketpair() for a stream, but close-on-exec; where the system needs two steps for that, a program
 /// started by another thread between them inherits the descriptors. False on failure, with errno set.
 bool open_stream(int (&ends)[2]);

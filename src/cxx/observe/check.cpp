@@ -15,6 +15,7 @@
 #include <cstring>
 #include <exception>
 #include <memory>
+#include <random>
 #include <stdexcept>
 #include <string>
 
@@ -125,9 +126,13 @@ class Check {
   void unlock() { pthread_mutex_unlock(&one_block_at_a_time_); }
 
   void draw_process_number() {
-    if (!draw_random(&process_, sizeof process_))
+    try {
+      std::random_device random;
+      process_ = std::uint64_t{random()} << 32 | random();
+    } catch (const std::exception&) {  // the system has no random numbers
       process_ = static_cast<std::uint64_t>(getpid()) << 32 ^
                  static_cast<std::uint64_t>(1e9 * clock_seconds(CLOCK_REALTIME));
+    }
   }
 
   /// In a forked child.
