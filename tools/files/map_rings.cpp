@@ -1,13 +1,11 @@
 #include "files/map_rings.h"
 
 #include <algorithm>
-#include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <numeric>
 #include <string>
 #include <tuple>
 
-#include "base/parallel_for.h"
 #include "files/cut_rings.h"
 #include "files/measures.h"
 #include "geometry/predicates.h"
@@ -423,13 +421,6 @@ double area_on_map(const MapRing& ring) {
   return sum;
 }
 
-/// The distance of c from the great circle of an arc, from differences, so that small distances keep their
-/// digits; for c closer than 90 degrees to `a`.
-double distance_to_circle(const Point& c, const Point& a, const Point& b) {
-  const Point n = cross(a, minus(b, a));
-  return std::fabs(dot(n, minus(c, a))) / length(n);
-}
-
 /// Largest distance from an arc to the straight line between its ends on the map, which is f(t)/4 or less at
 /// t and 1-t of the way, f = 4t(1-t) times this.
 ///
@@ -448,172 +439,43 @@ double distance_of_line(const MapCorner& a, const MapCorner& b) {
   return 1.15 / 8 * sine * w * (up * w + 2 * h * (east + up * w * sine / (2 * cosine)));
 }
 
+/// True if the straight line on the map is as close to the arc as MapLines promises.
+bool is_close(const MapCorner& a, const MapCorner& b) {
+  constexpr double kLong = 0.99619469809174555;  // cosine of 5 degrees: longer arcs are always halved
+  constexpr double kOfLength = 0.01;
+  if (a.x() == b.x()) return true;
+  if (dot(a.p, b.p) < kLong || std::fabs(a.x() - b.x()) > kRadian) return false;
+  const double off = distance_of_line(a, b);
+  return off < kRounding || off < std::min(kStraight, kOfLength * distance(a.p, b.p));
+}
+
+/// Halves the arc until the lines between the corners are close to it, and adds those between a and b.
+void add_corners(const MapCorner& a, const MapCorner& b, int depth, MapRing& ring) {
+  constexpr int kDeepest = 50;
+  if (depth == kDeepest || is_close(a, b)) return;
+  const Point middle = unit({a.p.x + b.p.x, a.p.y + b.p.y, a.p.z + b.p.z});
+  const double lon = longitude(middle);
+  const MapCorner m{middle, lon, latitude(middle), turn_near(lon, (a.x() + b.x()) / 2), true};
+  add_corners(a, m, depth + 1, ring);
+  ring.push_back(m);
+  add_corners(m, b, depth + 1, ring);
+}
+
 }  // namespace
-
-/// Cuts an arc into lines, with the same bits for the faces on both sides. Why each place of the map then is
-/// in one polygon, and each node in that of its own cell:
-/// 1. The faces cover the sphere once, and their arcs do not cross.
-/// 2. A line keeps within 0.4 of the distance of its arc to each arc of the same face that it does not meet.
-///    The lines of both arcs together need 0.8 of it: they do not cross either.
-/// 3. From a corner where two arcs meet, each line turns by less than half the angle between them.
-/// 4. So the polygon of each face is simple, and each of its sides is a side, reversed, of a neighbour: where
-///    one polygon ends, another begins. As many polygons as faces are at each place: one.
-/// 5. A line keeps within 0.1 of the distance of its arc to the nodes on both sides: it does not pass them.
-class MapLines::Arc {
- public:
-  /// `sides`: the arc in the faces on both sides, or in one of them.
-  Arc(const MapLines& all, const FaceSide* sides, std::ptrdiff_t count) {
-    ends_[0] = all.at(sides->low), ends_[1] = all.at(sides->high);
-    ends_[1].turn = turn_after(ends_[0], ends_[1]);
-    for (std::ptrdiff_t k = 0; k < count && k < 2; ++k) take_face(all, sides[k].face, sides[k].slot);
-  }
-
-  bool is_line() const { return is_close(ends_[0], ends_[1]); }
-
-  /// The corners between the ends.
-  MapRing corners() const {
-    MapRing corners;
-    add(ends_[0], ends_[1], 0, corners);
-    return corners;
-  }
-
- private:
-  /// An arc of the border of a face elsewhere. `end`: which end of this arc it begins or ends at; -1: none.
-  struct Other {
-    Point from, to;
-    int end;
-  };
-
-  static constexpr int kDeepest = 50;
-  /// Cosine of 5 degrees. Longer arcs are always halved.
-  static constexpr double kLong = 0.99619469809174555;
-  /// Of the distance to nodes, and to other arcs of the same faces.
-  static constexpr double kOfDistance = 0.1, kOfGap = 0.4;
-  /// Lines along arcs that diverge less than this, in radians, may cross: they would need too many corners.
-  /// 6 cm in 6371 km.
-  static constexpr double kLeastAngle = 1e-8;
-  /// Arcs of a face that are considered in each direction from an arc.
-  static constexpr int kMostArcs = 6;
-
-  /// Notes what must stay on its side of this arc: the node of a face, and the rest of its border. Where the
-  /// border has many corners, a diagonal stands for the arcs beyond it.
-  void take_face(const MapLines& all, std::size_t face, std::size_t slot) {
-    if (!all.faces_.centres.empty()) nodes_.push_back(all.faces_.centres[face]);
-    const auto point = [&](std::size_t k) { return all.point(all.corner_[k]); };
-    const Point u = ends_[0].p, normal = cross(u, minus(ends_[1].p, u));
-    const double scale = 1 / length(normal);
-    const auto end_at = [&](const Point& p) { return p == ends_[0].p ? 0 : p == ends_[1].p ? 1 : -1; };
-    const auto take = [&](const Point& from, const Point& to) {
-      others_.push_back({from, to, std::max(end_at(from), end_at(to))});
-      if (end_at(to) < 0) gap_ = std::min(gap_, std::fabs(dot(normal, minus(to, u))) * scale);
-    };
-    std::size_t first = all.after(face, slot), last = slot;
-    const auto meet = [&] { return all.corner_[first] == all.corner_[last]; };
-    for (int k = 0; k < kMostArcs && !meet(); ++k) {
-      const std::size_t next = all.after(face, first);
-      take(point(first), point(next));
-      first = next;
-      if (meet()) return;
-      const std::size_t before = all.before(face, last);
-      take(point(before), point(last));
-      last = before;
-    }
-    if (!meet()) take(point(first), point(last));
-  }
-
-  bool is_close(const MapCorner& a, const MapCorner& b) const {
-    if (a.x() == b.x()) return true;
-    if (dot(a.p, b.p) < kLong || std::fabs(a.x() - b.x()) > kRadian) return false;
-    const double off = distance_of_line(a, b);
-    if (off > kStraight) return false;
-    if (off < kRounding) return true;
-    for (const Point& node : nodes_)
-      if (node != a.p && node != b.p && off > kOfDistance * distance_to_arc(node, a.p, b.p)) return false;
-    const double ab = distance(a.p, b.p);
-    const auto fits = [&](double deviation, double gap) {
-      return deviation <= kOfGap * gap ||
-             deviation <=
-                 kOfGap * kLeastAngle * std::min(distance(b.p, ends_[0].p), distance(a.p, ends_[1].p));
-    };
-    for (const Other& other : others_) {
-      if (other.end >= 0 && (other.end == 0 ? a : b).p == ends_[other.end].p) {
-        // They meet in an angle: the line leaves its arc with a slope of 4 off / ab or less.
-        const Point &tip = ends_[other.end].p, &far = (other.end == 0 ? b : a).p,
-                    &to = other.from == tip ? other.to : other.from;
-        const double gap = dot(minus(far, tip), minus(to, tip)) > 0 ? distance_to_circle(far, tip, to) : ab;
-        if (!fits(4 * off, gap)) return false;
-      } else if (off > kOfGap * gap_ || other.end >= 0) {
-        if (fits(off, distance(a.p, other.from) - ab - distance(other.from, other.to))) continue;
-        if (!fits(off,
-                  std::min({distance_to_arc(a.p, other.from, other.to),
-                            distance_to_arc(b.p, other.from, other.to), distance_to_arc(other.from, a.p, b.p),
-                            distance_to_arc(other.to, a.p, b.p)})))
-          return false;
-      }
-    }
-    return true;
-  }
-
-  void add(const MapCorner& a, const MapCorner& b, int depth, MapRing& ring) const {
-    if (depth == kDeepest || is_close(a, b)) return;
-    const Point middle = unit({a.p.x + b.p.x, a.p.y + b.p.y, a.p.z + b.p.z});
-    const double lon = longitude(middle);
-    const MapCorner m{middle, lon, latitude(middle), turn_near(lon, (a.x() + b.x()) / 2), true};
-    add(a, m, depth + 1, ring);
-    ring.push_back(m);
-    add(m, b, depth + 1, ring);
-  }
-
-  MapCorner ends_[2];
-  boost::container::static_vector<Point, 2> nodes_;
-  boost::container::static_vector<Other, 2 * (2 * kMostArcs + 1)> others_;
-  double gap_ = 1;  ///< smallest distance of the other arcs' corners from the great circle of this arc
-};
 
 MapLines::MapLines(const Faces& faces)
     : faces_(faces),
       angles_(angles_of(faces.points, faces.given_points, true)),
-      corner_(merged_corners(faces)) {
-  const auto side = [&](std::size_t f, std::size_t k) {
-    const auto [low, high] = std::minmax(corner_[k], corner_[after(f, k)]);
-    return FaceSide{low, high, f, k};
-  };
-  std::vector<char> bends(corner_.size());
-  pstripack::parallel_for(faces.size(), 10 * corner_.size(), [&](std::size_t f) {
-    for (std::size_t k = faces.begin[f]; k < faces.begin[f + 1]; ++k) {
-      const FaceSide s = side(f, k);
-      bends[k] =
-          s.low != s.high && !leads_to_pole(point(s.low), point(s.high)) && !Arc(*this, &s, 1).is_line();
-    }
-  });
-  faces.for_each_corner([&](std::size_t f, std::size_t k) {
-    if (bends[k]) bent_.push_back(side(f, k));
-  });
-  std::sort(bent_.begin(), bent_.end());
-}
-
-std::size_t MapLines::after(std::size_t face, std::size_t slot) const {
-  std::size_t k = slot;
-  do k = k + 1 < faces_.begin[face + 1] ? k + 1 : faces_.begin[face];
-  while (k != slot && corner_[k] == corner_[slot]);
-  return k;
-}
-
-std::size_t MapLines::before(std::size_t face, std::size_t slot) const {
-  std::size_t k = slot;
-  do k = k > faces_.begin[face] ? k - 1 : faces_.begin[face + 1] - 1;
-  while (k != slot && corner_[k] == corner_[slot]);
-  return k;
-}
+      corner_(merged_corners(faces)) {}
 
 MapRing MapLines::corners_between(std::int32_t from, std::int32_t to) const {
-  const auto [low, high] = std::minmax(from, to);
-  const auto [first, last] = std::equal_range(
-      bent_.begin(), bent_.end(), FaceSide{low, high, 0, 0},
-      [](const FaceSide& a, const FaceSide& b) { return std::tie(a.low, a.high) < std::tie(b.low, b.high); });
-  if (first == last) return {};
-  MapRing corners = Arc(*this, &*first, last - first).corners();
-  if (from != low) std::reverse(corners.begin(), corners.end());
+  MapRing corners;
+  if (from == to || leads_to_pole(point(from), point(to))) return corners;
+  const MapCorner low = at(std::min(from, to));
+  MapCorner high = at(std::max(from, to));
+  high.turn = turn_after(low, high);
+  add_corners(low, high, 0, corners);
+  if (from > to) std::reverse(corners.begin(), corners.end());
   return corners;
 }
 
@@ -628,7 +490,7 @@ std::vector<MapRing> MapLines::polygons(std::size_t face) const {
     if (a == b || leads_to_pole(a, b)) continue;
     ring.back().straight = true;
     const std::size_t slot = faces_.begin[face] + k;
-    const MapRing between = corners_between(corner_[slot], corner_[after(face, slot)]);
+    const MapRing between = corners_between(corner_[slot], corner_[faces_.after(face, slot)]);
     ring.insert(ring.end(), between.begin(), between.end());
   }
   std::vector<MapRing> polygons;
@@ -644,9 +506,8 @@ std::vector<MapRing> MapLines::lines(std::int32_t from, std::int32_t to) const {
   MapRing corners{at(from)};
   if (leads_through_pole(point(from), point(to))) {
     corners.push_back(pole(point(from).z + point(to).z));
-  } else if (!leads_to_pole(point(from), point(to))) {
-    const FaceSide side{from, to, 0, 0};
-    for (const MapCorner& corner : Arc(*this, &side, 0).corners()) corners.push_back(corner);
+  } else {
+    for (const MapCorner& corner : corners_between(from, to)) corners.push_back(corner);
   }
   corners.push_back(at(to));
   move_to_poles(corners);

@@ -60,12 +60,9 @@ std::vector<MapRing> between_meridians(MapRing corners, double west, double widt
 /// The pieces of the ring between two parallels.
 std::vector<MapRing> between_parallels(MapRing ring, double south, double north);
 
-/// Faces as polygons with straight sides on the map from -180 to 180. Straight lines are as close to the arcs
-/// as
-/// - 0.001 degrees,
-/// - a tenth of the distance to the nodes on both sides: each node is in the polygon of its cell alone,
-/// - 0.4 times the distance to the other arcs of the faces on both sides: polygons do not overlap.
-/// An arc is cut in the same way in the faces on both sides, to the last bit.
+/// Faces as polygons with straight sides on the map from -180 to 180. A straight line is within 0.001
+/// degrees, and a hundredth of its length, of its arc: polygons of narrower faces may overlap by this. An arc
+/// is cut in the same way in the faces on both sides, to the last bit.
 class MapLines {
  public:
   /// `faces` must outlive the object.
@@ -78,21 +75,16 @@ class MapLines {
   std::vector<MapRing> lines(std::int32_t from, std::int32_t to) const;
 
  private:
-  class Arc;
   const Point& point(std::int32_t corner) const {
     return faces_.points[static_cast<std::size_t>(corner) - 1];
   }
   MapCorner at(std::int32_t corner) const { return corner_at(faces_, corner, angles_); }
-  /// The next and the previous slot of the face with another corner.
-  std::size_t after(std::size_t face, std::size_t slot) const;
-  std::size_t before(std::size_t face, std::size_t slot) const;
   /// The corners that an arc gets between its ends.
   MapRing corners_between(std::int32_t from, std::int32_t to) const;
 
   const Faces& faces_;
   LonLat angles_;
   std::vector<std::int32_t> corner_;
-  std::vector<FaceSide> bent_;  ///< sides that are not close enough to one line for their face, sorted
 };
 
 /// Adds corners until arcs of great circles are within 0.0001 degrees of the straight lines and no side is

@@ -105,38 +105,14 @@ std::vector<std::vector<MapRing>> maps_of(const Faces& faces) {
   return maps;
 }
 
-/// Each side once each way, each node in the polygon of its own cell alone, and no place close to a border in
-/// two polygons. `is_inside(place)`: the faces cover the surroundings of the place.
+/// Each side once each way: an arc has the same bits in the polygons on both sides. `is_inside(place)`: the
+/// faces cover the surroundings of the place.
 template <class IsInside>
 void expect_topology(const Faces& faces, const std::string& what, const IsInside& is_inside) {
-  const auto maps = maps_of(faces);
-  std::size_t alone = 0, wrong = 0;
-  for (const auto& [from, to] : sides_without_partner(maps)) alone += is_inside(from) || is_inside(to);
+  std::size_t alone = 0;
+  for (const auto& [from, to] : sides_without_partner(maps_of(faces)))
+    alone += is_inside(from) || is_inside(to);
   EXPECT_EQ(alone, 0u) << what;
-  const LonLat angles = angles_of(faces.centres, faces.given_centres, true);
-  for (std::size_t f = 0; f < faces.centres.size(); ++f) {
-    const double lon = wrapped(angles.lon[f]), lat = angles.lat[f];
-    const auto found = faces_at(maps, lon, lat);
-    if (std::fabs(lon) < 180 && std::fabs(lat) < 90 && is_inside(Place(lon, lat))) wrong += found.size() != 1;
-    for (const std::size_t g : found) wrong += faces.node_of(g) != faces.node_of(f);
-  }
-  EXPECT_EQ(wrong, 0u) << what;
-  std::size_t doubly = 0, tries = 0, corners = 0;
-  for (const auto& rings : maps)
-    for (const MapRing& ring : rings) corners += ring.size();
-  const std::size_t step = std::max<std::size_t>(1, corners / 40);
-  for (const auto& rings : maps)
-    for (const MapRing& ring : rings)
-      for (std::size_t i = 0; i < ring.size(); ++i) {
-        if (tries++ % step != 0) continue;
-        const MapCorner &p = ring[i], &q = ring[(i + 1) % ring.size()];
-        const double width = q.x() - p.x(), height = q.lat - p.lat;
-        if (std::hypot(width, height) < 1e-6) continue;
-        for (const double off : {-1e-4, 1e-4})
-          doubly +=
-              faces_at(maps, p.x() + width / 2 - off * height, p.lat + height / 2 + off * width).size() > 1;
-      }
-  EXPECT_EQ(doubly, 0u) << what;
 }
 
 const auto kEverywhere = [](const Place&) { return true; };
@@ -167,8 +143,7 @@ Points pairs(double apart, std::uint64_t seed) {
   return points;
 }
 
-// The lines of an arc are the same for both its cells, whatever their widths.
-TEST(map, has_each_side_once_each_way_and_each_node_in_its_own_cell_alone) {
+TEST(map, has_each_side_once_each_way) {
   expect_topology_of_mesh(triangulate(read_nodes("stations_111_m_apart.csv")), "three stations");
   expect_topology_of_mesh(triangulate(read_nodes("stations_2_m_apart.csv")), "two stations");
   for (const char* const family : {"random", "latlon", "reduced-gaussian", "icosahedral", "cubed-sphere",
@@ -236,7 +211,8 @@ TEST(map, has_straight_lines_close_to_arcs_and_the_same_on_both_sides_of_an_arc)
         for (const double t : {0.1, 0.3, 0.5, 0.7, 0.9}) {
           const Point on_line =
               point_sets::from_degrees(p.x() + t * (q.x() - p.x()), p.lat + t * (q.lat - p.lat));
-          EXPECT_LE(std::fabs(dot(on_line, normal)) / std::sqrt(dot(normal, normal)), 0.0011 / kDegree);
+          EXPECT_LE(std::fabs(dot(on_line, normal)) / length(normal),
+                    std::min(0.0011 / kDegree, 0.011 * length(minus(q.p, p.p))));
         }
       }
   for (const auto& [place, times] : met) {
