@@ -1,18 +1,11 @@
 // pstripack: meshes on the sphere from the command line.
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
-#include <cstdlib>
 #include <new>
 
 #include "base/parallel_for.h"
-#include "base/system.h"
 #include "files/nearest.h"
 #include "files/output_file.h"
 #include "pstripack/options.h"
@@ -131,25 +124,9 @@ int run(int argc, char** argv) {
   return kFailed;
 }
 
-/// Threads that wait must soon sleep: on a busy machine those that spin take the processor from the thread
-/// that they wait for (ten times the processor time was measured). They spin for some 0.3 ms, because waking
-/// them for each loop takes a tenth longer. OpenMP's run-time library, GNU's, reads the number of spins when
-/// it is loaded, so the program begins again.
-void let_waiting_threads_sleep([[maybe_unused]] char** argv) {
-#ifdef _OPENMP
-  constexpr auto kSpins = "GOMP_SPINCOUNT";
-  if (omp_get_max_threads() == 1 || std::getenv("OMP_WAIT_POLICY") != nullptr ||
-      std::getenv(kSpins) != nullptr)
-    return;
-  setenv(kSpins, "10000", 1);
-  execv(pstripack::path_of_this_program().c_str(), argv);  // returns only if it failed
-#endif
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  let_waiting_threads_sleep(argv);
   fill_standard_streams();
   return program::on_rank_0(argc, argv, [&] { return run(argc, argv); });
 }
