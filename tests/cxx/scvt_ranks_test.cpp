@@ -173,19 +173,21 @@ TEST(Spread, RefinedGeneratorsAreTheSameOnAnyNumberOfRanks) {
     }
 }
 
-TEST(Spread, RowsGoWhereTheyAreSentAndSlicesAreEqual) {
+TEST(Spread, RowsGoWhereTheyAreSentInTheOrderOfTheirNumbers) {
   ThreadRanks::run(3, [&](Communicator& ranks) {
     Rows rows{2, {}, {}};
+    std::vector<std::int32_t> to;
     for (std::int64_t number = 1; number <= 100; ++number)
       if (number * number % 3 == ranks.rank()) {
         rows.numbers.push_back(number);
+        to.push_back(static_cast<std::int32_t>(number - 1) / 34);
         rows.values.insert(rows.values.end(), {1.0 / static_cast<double>(number), -0.0});
       }
-    const Rows slice = moved(ranks, rows, ranks_of_slices(ranks, 100, rows.numbers));
-    const std::size_t sizes[] = {33, 33, 34};
+    const Rows slice = moved(ranks, rows, to);
+    const std::size_t sizes[] = {34, 34, 32};
     ASSERT_EQ(slice.numbers.size(), sizes[ranks.rank()]);
     for (std::size_t i = 0; i < slice.numbers.size(); ++i) {
-      EXPECT_EQ(slice.numbers[i], static_cast<std::int64_t>(i) + 1 + 33 * ranks.rank());
+      EXPECT_EQ(slice.numbers[i], static_cast<std::int64_t>(i) + 1 + 34 * ranks.rank());
       EXPECT_EQ(slice.values[2 * i], 1.0 / static_cast<double>(slice.numbers[i]));
       EXPECT_TRUE(std::signbit(slice.values[2 * i + 1]));
     }

@@ -399,30 +399,6 @@ Columns measures_of(const Faces& faces, const std::vector<Point>& nodes) {
   return columns;
 }
 
-void add_columns(Faces& faces, const std::vector<Point>& nodes, const Columns& of_mesh,
-                 std::vector<double>&& degrees) {
-  const bool are_cells = !faces.centres.empty();
-  Columns measures = faces.columns_of_parts;
-  for (Column& column : measures_of(faces, nodes)) measures.push_back(std::move(column));
-  Columns& of_nodes = are_cells ? faces.columns_of_faces : faces.columns_of_points;
-  of_nodes = of_mesh;
-  Column degree = whole_numbers("degree", "number of neighbours of the node", std::move(degrees));
-  std::vector<std::string> names{degree.name};
-  for (const Column& c : measures) names.push_back(c.name);
-  const auto is_ours = [&](const Column& c) {
-    const Column* const ours = c.name == degree.name ? &degree : find(measures, c.name);
-    return ours != nullptr && ours->long_name == c.long_name;
-  };
-  of_nodes.erase(std::remove_if(of_nodes.begin(), of_nodes.end(), is_ours), of_nodes.end());
-  make_names_differ(of_nodes, names);
-  of_nodes.push_back(std::move(degree));
-  if (are_cells && !faces.nodes.empty()) {
-    of_nodes = at_nodes(of_nodes, faces.nodes);
-    faces.given_centres = at_nodes(faces.given_centres, faces.nodes);
-  }
-  for (Column& column : measures) faces.columns_of_faces.push_back(std::move(column));
-}
-
 }  // namespace
 
 Faces hull_face(const Mesh& mesh) {
@@ -444,28 +420,30 @@ Faces hull_face(const Mesh& mesh) {
 }
 
 void add_columns(Faces& faces, const Mesh& mesh) {
-  (faces.centres.empty() ? faces.given_points : faces.given_centres) = mesh.given;
+  const bool are_cells = !faces.centres.empty();
+  (are_cells ? faces.given_centres : faces.given_points) = mesh.given;
   std::vector<double> degrees(mesh.points.size());
   for (std::size_t i = 0; i < degrees.size(); ++i)
     degrees[i] = pstripack::nbcnt(mesh.lend[i], mesh.lptr.data());
-  add_columns(faces, mesh.points, mesh.columns, std::move(degrees));
-}
-
-std::vector<std::int32_t> MeshPart::corners_by_number() const {
-  std::vector<std::int32_t> result;
-  result.reserve(corner.size());
-  for (const std::int32_t c : corner) result.push_back(numbers[static_cast<std::size_t>(c) - 1]);
-  return result;
-}
-
-Faces triangle_faces(const MeshPart& part) {
-  Faces faces = faces_of(part.points, part.corner);
-  add_columns(faces, part.points, part.columns, std::vector<double>(part.degrees));
-  faces.points.resize(part.nodes);
-  faces.corner = part.corners_by_number();
-  faces.share_of_points = part.share_of_nodes;
-  faces.share_of_faces = part.share_of_triangles;
-  return faces;
+  Columns measures = faces.columns_of_parts;
+  for (Column& column : measures_of(faces, mesh.points)) measures.push_back(std::move(column));
+  Columns& of_nodes = are_cells ? faces.columns_of_faces : faces.columns_of_points;
+  of_nodes = mesh.columns;
+  Column degree = whole_numbers("degree", "number of neighbours of the node", std::move(degrees));
+  std::vector<std::string> names{degree.name};
+  for (const Column& c : measures) names.push_back(c.name);
+  const auto is_ours = [&](const Column& c) {
+    const Column* const ours = c.name == degree.name ? &degree : find(measures, c.name);
+    return ours != nullptr && ours->long_name == c.long_name;
+  };
+  of_nodes.erase(std::remove_if(of_nodes.begin(), of_nodes.end(), is_ours), of_nodes.end());
+  make_names_differ(of_nodes, names);
+  of_nodes.push_back(std::move(degree));
+  if (are_cells && !faces.nodes.empty()) {
+    of_nodes = at_nodes(of_nodes, faces.nodes);
+    faces.given_centres = at_nodes(faces.given_centres, faces.nodes);
+  }
+  for (Column& column : measures) faces.columns_of_faces.push_back(std::move(column));
 }
 
 }  // namespace files

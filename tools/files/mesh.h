@@ -23,15 +23,6 @@ struct Variant {
   bool clockwise = false;  ///< GeoJSON: rings turn clockwise
 };
 
-/// Which rows of a table this process holds. The processes write their rows one after another, in the order
-/// of ranks.
-struct Share {
-  std::size_t before = 0;  ///< rows of the processes before this one
-  std::size_t all = 0;     ///< rows of all processes; 0: this process holds all rows
-
-  std::size_t total(std::size_t here) const { return all == 0 ? here : all; }
-};
-
 /// Nodes and the canonical lists of their triangulation.
 struct Mesh {
   std::vector<Point> points;         ///< as given
@@ -125,8 +116,7 @@ struct Faces {
   LonLat given_points, given_centres;  ///< their longitudes and latitudes, if the input had them
   Columns columns_of_points, columns_of_faces;
   Columns columns_of_parts;  ///< of faces cut at polygons: add_columns() makes them columns of the faces
-  Share share_of_points, share_of_faces;
-  Variant variant = {};  ///< with the edges, all faces must be here
+  Variant variant = {};      ///< with the edges, all faces must be here
 
   std::size_t size() const { return begin.size() - 1; }
   std::size_t node_of(std::size_t f) const { return nodes.empty() ? f : nodes[f]; }
@@ -202,29 +192,5 @@ Faces voronoi_faces(const Mesh& mesh, bool with_corners = true);
 /// neighbours, the areas of the faces in sr and km2, and the circumradii of triangles or the centroids of
 /// cells. Own columns with one of these names get `_given` appended.
 void add_columns(Faces& faces, const Mesh& mesh);
-
-/// One process's part of a mesh that covers the sphere: consecutive nodes, and the triangles whose smallest
-/// corner is one of them. The parts of all processes, one after another, are the mesh.
-struct MeshPart {
-  Share share_of_nodes, share_of_triangles;
-  std::size_t nodes = 0;              ///< number of nodes of this process
-  std::vector<Point> points;          ///< these nodes, then their neighbours on other processes; unit vectors
-  std::vector<std::int32_t> numbers;  ///< numbers of the points in the whole mesh
-  std::vector<std::int32_t>
-      corner;                   ///< three per triangle, smallest number first: indices into points from 1
-  std::vector<double> degrees;  ///< number of neighbours of each node of this process
-  std::vector<double> density;  ///< of the nodes of this process
-  Columns columns;              ///< of the nodes of this process
-  Notes notes;
-
-  std::vector<Point> nodes_here() const {
-    return {points.begin(), points.begin() + static_cast<std::ptrdiff_t>(nodes)};
-  }
-  /// The corners as node numbers of the whole mesh.
-  std::vector<std::int32_t> corners_by_number() const;
-};
-
-/// The triangles of the part as faces, with the columns that files of faces can hold.
-Faces triangle_faces(const MeshPart& part);
 
 }  // namespace files

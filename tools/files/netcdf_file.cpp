@@ -13,7 +13,6 @@
 #include "files/text_file.h"
 #include "lists/limits.h"
 #include "numbers.h"
-#include "parallel/local_nodes.h"
 
 namespace files {
 namespace {
@@ -270,15 +269,11 @@ bool NetcdfFile::is_packed(const NetcdfVariable& v) const {
 }
 
 std::vector<double> NetcdfFile::values(const NetcdfVariable& v) const {
-  std::vector<std::size_t> start(v.lengths.size()), count = v.lengths;
-  if (is_read_in_parts() && !count.empty()) {
-    start.back() = before(count.back());
-    count.back() = pstripack::slice_begin(count.back(), options_.part + 1, options_.parts) - start.back();
-  }
+  const std::vector<std::size_t> start(v.lengths.size());
   std::size_t size = 1;
-  for (const std::size_t length : count) size *= expect_few(v, length, size);
+  for (const std::size_t length : v.lengths) size *= expect_few(v, length, size);
   std::vector<double> values(size);
-  check(v.path, nc_get_vara_double(v.group, v.id, start.data(), count.data(), values.data()));
+  check(v.path, nc_get_vara_double(v.group, v.id, start.data(), v.lengths.data(), values.data()));
 
   const Stored stored(v.type, text(v, "_Unsigned"));
   std::vector<double> missing = numbers(v, "_FillValue");
@@ -371,10 +366,6 @@ std::string NetcdfFile::shape(const std::string& name, const std::vector<int>& d
   for (const int dimension : dimensions)
     parts.push_back(fmt::format("{}={}", dimension_name(dimension), length_of(dimension)));
   return fmt::format("{}({})", excerpt(name), fmt::join(parts, ", "));
-}
-
-std::size_t NetcdfFile::before(std::size_t n) const {
-  return pstripack::slice_begin(n, options_.part, options_.parts);
 }
 
 }  // namespace files

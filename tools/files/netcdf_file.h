@@ -60,8 +60,7 @@ class NetcdfFile {
   /// The values: `_Unsigned` applied, then NaN for what is missing or out of the valid range, then scale and
   /// offset, in double precision. Missing are `_FillValue` or, without it, the library's fill value, except
   /// of bytes; all numbers of `missing_value`; and what is not finite. The valid range is that of the stored
-  /// numbers, unless only the unpacked ones can be of its type. Ranks that read parts get theirs of the last
-  /// dimension.
+  /// numbers, unless only the unpacked ones can be of its type.
   std::vector<double> values(const NetcdfVariable& v) const;
   /// True if scale or offset change the values.
   bool is_packed(const NetcdfVariable& v) const;
@@ -75,13 +74,6 @@ class NetcdfFile {
   std::size_t length_of(int dimension) const;
   /// "T(time=12, lat=96)".
   std::string shape(const std::string& name, const std::vector<int>& dimensions) const;
-
-  bool is_read_in_parts() const { return options_.parts > 1; }
-  /// The number of values that lower ranks read of so many, or of a variable.
-  std::size_t before(std::size_t n) const;
-  std::size_t before(const NetcdfVariable& v) const {
-    return v.lengths.empty() ? 0 : before(v.lengths.back());
-  }
 
  private:
   void check(const std::string& variable, int status) const;

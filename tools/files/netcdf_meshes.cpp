@@ -39,8 +39,8 @@ void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<P
   LonLat of_centres;
   Edges edges;
   NetcdfWriter out(file);
-  const int nodes = out.dimension("mesh_nodes", faces.points.size(), faces.share_of_points);
-  const int n_faces = out.dimension("mesh_faces", faces.size(), faces.share_of_faces);
+  const int nodes = out.dimension("mesh_nodes", faces.points.size());
+  const int n_faces = out.dimension("mesh_faces", faces.size());
   const int corners = out.dimension("mesh_face_corners", faces.most_corners());
   const int mesh = out.variable("mesh", {},
                                 {{"cf_role", "mesh_topology"},
@@ -185,7 +185,7 @@ void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>& points
   const bool degrees = values.given.empty() || values.given.degrees;
   const LonLat angles = angles_of(points, values.given, degrees);
   NetcdfWriter out(file);
-  const int n = out.dimension("nCells", points.size(), values.share);
+  const int n = out.dimension("nCells", points.size());
   out.variable("lon", {n}, {{"units", degrees ? "degrees_east" : "radians"}}, angles.lon);
   out.variable("lat", {n}, {{"units", degrees ? "degrees_north" : "radians"}}, angles.lat);
   out.components({"xCell", "yCell", "zCell"}, n, {}, points);

@@ -28,15 +28,12 @@ using Variable = NetcdfVariable;
 
 /// The values of a coordinate or density.
 std::vector<double> read_of_nodes(const File& file, const Variable& v) {
-  if (file.is_read_in_parts() && v.lengths.size() != 1)
-    file.fail("variable " + excerpt(v.path) +
-              ": several ranks read variables of one dimension, each its part");
   std::vector<double> values = file.values(v);
   for (std::size_t i = 0; !file.options().keep_missing && i < values.size(); ++i)
     if (std::isnan(values[i]))
       file.fail(
           fmt::format("variable {}, value {}: missing or not finite: remove the node, or say --skip-missing",
-                      excerpt(v.path), file.before(v) + i + 1));
+                      excerpt(v.path), i + 1));
   return values;
 }
 
@@ -63,7 +60,7 @@ Column read_column(const File& file, const Variable& v) {
   Column column{v.name(), file.text(v, "long_name"), file.text(v, "units")};
   if (v.has_numbers()) column.numbers = file.values(v);
   const bool are_integers = v.type != NC_FLOAT && v.type != NC_DOUBLE && !file.is_packed(v);
-  const bool need_digits = are_integers && largest_of(column.numbers) > 0x1p53 && !file.is_read_in_parts();
+  const bool need_digits = are_integers && largest_of(column.numbers) > 0x1p53;
   if (!v.has_numbers() || need_digits) {
     column.numbers.clear();
     column.texts = file.texts(v);
@@ -75,10 +72,10 @@ Column read_column(const File& file, const Variable& v) {
 }
 
 /// True if the variable has a number or a text for each node. Characters have a dimension more, that of the
-/// text. Texts are not read in parts.
-bool has_one_per_node(const File& file, const Variable& v, const std::vector<int>& nodes) {
+/// text.
+bool has_one_per_node(const Variable& v, const std::vector<int>& nodes) {
   if (v.has_numbers()) return v.is_of(nodes);
-  if (file.is_read_in_parts() || v.lengths.empty()) return false;
+  if (v.lengths.empty()) return false;
   Variable texts = v;
   if (v.type == NC_CHAR) texts.dimensions.pop_back(), texts.lengths.pop_back();
   return (v.type == NC_CHAR || v.type == NC_STRING) && texts.is_of(nodes);
@@ -239,7 +236,7 @@ bool in_degrees(const File& file, const Variable& v, const std::vector<double>& 
   if (units.empty()) {
     if (v.name() == "lonCell" || v.name() == "latCell") return false;
     if (said != Units::said_or_unmistakable) return said == Units::degrees;
-    if (!file.is_read_in_parts() && are_beyond_radians(values, are_latitudes)) return true;
+    if (are_beyond_radians(values, are_latitudes)) return true;
   }
   file.fail(fmt::format("variable {}: units '{}'; expected degrees or radians{}", excerpt(v.path),
                         excerpt(units), units.empty() ? ": say --units degrees or radians" : ""));
@@ -296,8 +293,8 @@ Places from_angles(const File& file, const Pair& pair) {
   if (lon_in_degrees != lat_in_degrees)
     for (double& angle : lon_in_degrees ? given.lat : given.lon) angle *= kRadian;
   if (const std::size_t bad = first_beyond_pole(given); bad < given.lat.size())
-    file.fail(fmt::format("variable {}, value {}: {} is beyond the pole{}", excerpt(lat.path),
-                          file.before(lat) + bad + 1, given.lat[bad],
+    file.fail(fmt::format("variable {}, value {}: {} is beyond the pole{}", excerpt(lat.path), bad + 1,
+                          given.lat[bad],
                           !lat_in_degrees ? ": is the attribute units wrong, and are these degrees?"
                           : given.lon.size() == given.lat.size()
                               ? hint_beyond_pole(given, what_holds(file, lat) == Holds::unknown
@@ -311,8 +308,6 @@ Places from_angles(const File& file, const Pair& pair) {
       file.fail(fmt::format("variables {} and {}: expected one shape, or two axes of one dimension each",
                             excerpt(lon.path), excerpt(lat.path)));
     expect_to_fit(file, lat, given.lat.size(), given.lon.size());
-    if (file.is_read_in_parts())
-      file.fail("a grid: several ranks read a list of nodes, each its part: use `pstripack convert`");
     const LonLat axes = angles_of({}, given, true);
     places.grid = {axes.lon, axes.lat};
     const bool degrees = given.degrees;
@@ -539,7 +534,7 @@ Columns read_columns(const File& file, const Places& places, const Names& wanted
                                        [&](const std::string& name) { return file.find(name) == &v; });
     if (is_among(places.variables, &v) || v.name() == "meshDensity" || (!wanted.empty() && !is_wanted))
       continue;
-    if (has_one_per_node(file, v, places.dimensions))
+    if (has_one_per_node(v, places.dimensions))
       columns.push_back(read_column(file, v));
     else if (is_wanted)
       file.fail(fmt::format("variable {}: expected one value per node, {}{}",
@@ -609,9 +604,7 @@ Nodes read_netcdf(const std::string& name, const ReadOptions& options, const std
   nodes.given = std::move(places.given);
   nodes.grid = std::move(places.grid);
   for (const int dimension : places.dimensions) nodes.shape.push_back(file.length_of(dimension));
-  if (file.is_read_in_parts()) nodes.before = file.before(nodes.shape.at(0));
-  if (nodes.points.empty() && nodes.grid.lon.empty() && !file.is_read_in_parts())
-    file.fail("no nodes: the variables are empty");
+  if (nodes.points.empty() && nodes.grid.lon.empty()) file.fail("no nodes: the variables are empty");
   if (options.with_values) {
     std::string variable = options.variable;
     if (variable.empty() && !wanted.empty()) variable = wanted[0];

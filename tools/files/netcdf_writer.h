@@ -26,21 +26,16 @@
 namespace files {
 
 /// A NetCDF file being written: variables are defined with the functions that give their values, which
-/// write() then calls. If another process has begun the file, the definitions are looked up and this process
-/// adds its rows.
+/// write() then calls.
 class NetcdfWriter {
  public:
   using Dimensions = std::vector<int>;
 
   explicit NetcdfWriter(const OutputFile& file, int kind = NC_NETCDF4 | NC_CLASSIC_MODEL)
-      : name_(file.name()), is_begun_(file.is_begun()) {
-    if (is_begun_) {
-      check(nc_open(file.path().c_str(), NC_WRITE, &id_));
-    } else {
-      std::size_t buffer = std::size_t{1} << 20;  // of classic files; NetCDF's own of some kB takes longer
-      check(nc__create(file.path().c_str(), NC_CLOBBER | kind, 0, &buffer, &id_));
-      check(nc_set_fill(id_, NC_NOFILL, nullptr));
-    }
+      : name_(file.name()) {
+    std::size_t buffer = std::size_t{1} << 20;  // of classic files; NetCDF's own of some kB takes longer
+    check(nc__create(file.path().c_str(), NC_CLOBBER | kind, 0, &buffer, &id_));
+    check(nc_set_fill(id_, NC_NOFILL, nullptr));
   }
   ~NetcdfWriter() {
     if (id_ >= 0) nc_abort(id_);
@@ -48,12 +43,10 @@ class NetcdfWriter {
   NetcdfWriter(const NetcdfWriter&) = delete;
   NetcdfWriter& operator=(const NetcdfWriter&) = delete;
 
-  /// Defines a dimension. `length`: number of rows of this process.
-  int dimension(const std::string& name, std::size_t length, const Share& share = {}) {
+  int dimension(const std::string& name, std::size_t length) {
     int dimension = 0;
-    check(is_begun_ ? nc_inq_dimid(id_, name.c_str(), &dimension)
-                    : nc_def_dim(id_, name.c_str(), share.total(length), &dimension));
-    rows_[dimension] = {share.before, length};
+    check(nc_def_dim(id_, name.c_str(), length, &dimension));
+    rows_[dimension] = length;
     names_.insert(name);
     return dimension;
   }
@@ -61,9 +54,8 @@ class NetcdfWriter {
   int define(const std::string& name, nc_type type, const Dimensions& dimensions,
              const Notes& attributes = {}) {
     int variable = 0;
-    check(is_begun_ ? nc_inq_varid(id_, name.c_str(), &variable)
-                    : nc_def_var(id_, name.c_str(), type, static_cast<int>(dimensions.size()),
-                                 dimensions.data(), &variable));
+    check(nc_def_var(id_, name.c_str(), type, static_cast<int>(dimensions.size()), dimensions.data(),
+                     &variable));
     dimensions_[variable] = dimensions;
     names_.insert(name);
     for (const auto& [attribute_name, text] : attributes) attribute(variable, attribute_name.c_str(), text);
@@ -75,8 +67,7 @@ class NetcdfWriter {
     nc_inq_varid(id_, name.c_str(), &variable);
     return variable;
   }
-  /// Defines a variable of double or std::int32_t. `values`: this process's rows, which must outlive the
-  /// writer.
+  /// Defines a variable of double or std::int32_t. `values` must outlive the writer.
   template <class Value>
   int variable(const std::string& name, const Dimensions& dimensions, const Notes& attributes,
                const std::vector<Value>& values) {
@@ -135,8 +126,7 @@ class NetcdfWriter {
     std::vector<int> ids;
     for (const std::string& name : names)
       ids.push_back(define(name, type_of<Value>(), dimensions, attributes));
-    const std::size_t width = width_of(dimensions),
-                      count = dimensions.empty() ? 1 : rows_.at(dimensions[0]).second;
+    const std::size_t width = width_of(dimensions), count = dimensions.empty() ? 1 : rows_.at(dimensions[0]);
     writing_.emplace_back([this, ids, count, width, row] { put_rows<Value>(ids, count, width, row); });
     return ids;
   }
@@ -145,13 +135,13 @@ class NetcdfWriter {
     for (const auto& [name, text] : notes) attribute(NC_GLOBAL, name.c_str(), text);
   }
   void attribute(int variable, const char* name, const std::string& text) {
-    if (!is_begun_) check(nc_put_att_text(id_, variable, name, text.size(), text.data()));
+    check(nc_put_att_text(id_, variable, name, text.size(), text.data()));
   }
   void attribute(int variable, const char* name, int value) {
-    if (!is_begun_) check(nc_put_att_int(id_, variable, name, NC_INT, 1, &value));
+    check(nc_put_att_int(id_, variable, name, NC_INT, 1, &value));
   }
   void attribute(int variable, const char* name, double value) {
-    if (!is_begun_) check(nc_put_att_double(id_, variable, name, NC_DOUBLE, 1, &value));
+    check(nc_put_att_double(id_, variable, name, NC_DOUBLE, 1, &value));
   }
   /// Copies an attribute of another file.
   void attribute(int variable, const char* name, int from_file, int from_variable) {
@@ -164,7 +154,7 @@ class NetcdfWriter {
   }
   /// Writes all values. Must be the last call.
   void write() {
-    if (!is_begun_) check(nc_enddef(id_));
+    check(nc_enddef(id_));
     for (const auto& write_one : writing_) write_one();
     check(nc_close(std::exchange(id_, -1)));
   }
@@ -177,16 +167,13 @@ class NetcdfWriter {
   static constexpr nc_type type_of() {
     return std::is_same_v<Value, double> ? NC_DOUBLE : std::is_same_v<Value, char> ? NC_CHAR : NC_INT;
   }
-  /// Writes `rows` rows of the variable, of this process's from `first` on.
+  /// Writes `rows` rows of the variable, from `first` on.
   template <class Value>
   void put(int variable, const Value* values, std::size_t first, std::size_t rows) const {
-    std::vector<std::size_t> start, count;
-    for (const int dimension : dimensions_.at(variable)) {
-      const auto [before, here] = rows_.at(dimension);
-      start.push_back(before);
-      count.push_back(here);
-    }
-    if (!start.empty()) start[0] += first, count[0] = rows;
+    std::vector<std::size_t> count;
+    for (const int dimension : dimensions_.at(variable)) count.push_back(rows_.at(dimension));
+    std::vector<std::size_t> start(count.size());
+    if (!start.empty()) start[0] = first, count[0] = rows;
     if constexpr (std::is_same_v<Value, double>)
       check(nc_put_vara_double(id_, variable, start.data(), count.data(), values));
     else if constexpr (std::is_same_v<Value, char>)
@@ -205,13 +192,13 @@ class NetcdfWriter {
   }
   /// Number of values in a row of the first dimension.
   std::size_t width_of(const Dimensions& dimensions) const {
-    return dimensions.size() < 2 ? 1 : rows_.at(dimensions[1]).second;
+    return dimensions.size() < 2 ? 1 : rows_.at(dimensions[1]);
   }
   /// Some rows at a time.
   template <class Value, class Row>
   void put_rows(const std::vector<int>& variables, std::size_t rows, std::size_t width,
                 const Row& row) const {
-    if (rows == 0) return;  // of a process without faces, whose width may be 0
+    if (rows == 0) return;  // the width may be 0
     const std::size_t together = variables.size() * width;
     const std::size_t most = std::min(rows, std::max<std::size_t>((std::size_t{1} << 20) / together, 1));
     std::vector<Value> values(most * together);
@@ -256,10 +243,8 @@ class NetcdfWriter {
   }
 
   std::string name_;
-  bool is_begun_;
   int id_ = -1;
-  std::map<int, std::pair<std::size_t, std::size_t>>
-      rows_;                                    ///< of each dimension: rows of earlier processes, own rows
+  std::map<int, std::size_t> rows_;             ///< of each dimension: rows of earlier processes, own rows
   std::map<int, Dimensions> dimensions_;        ///< of each variable
   std::set<std::string> names_;                 ///< of dimensions and variables
   std::vector<std::function<void()>> writing_;  ///< the values

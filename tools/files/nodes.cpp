@@ -420,7 +420,7 @@ std::string Nodes::place(std::size_t i) const {
 void Nodes::keep(const std::vector<std::size_t>& indices) {
   if (shape.empty()) shape.push_back(points.size());
   if (numbers.empty())
-    for (std::size_t i = 0; i < points.size(); ++i) numbers.push_back(before + i + 1);
+    for (std::size_t i = 0; i < points.size(); ++i) numbers.push_back(i + 1);
   numbers = values_at(numbers, indices);
   points = values_at(points, indices);
   given = at_nodes(given, indices);

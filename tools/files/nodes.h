@@ -44,8 +44,6 @@ struct ReadOptions {
   /// 22-30,13-20, which are then the columns.
   std::string columns;
   TextFormat text = {};
-  /// Of NetCDF: read only slice `part` of `parts` equal slices of the nodes, which must not be a grid.
-  std::size_t part = 0, parts = 1;
 };
 
 /// Global attributes of a NetCDF file, or members of GeoJSON: title, history, source, institution,
@@ -63,9 +61,8 @@ struct Nodes {
   std::string file;  ///< name in messages
   std::string kind;  ///< "text, lon lat in degrees"
   std::vector<Point> points;
-  std::size_t before = 0;  ///< number of nodes in earlier slices
-  LonLat given;            ///< longitudes and latitudes as in the file; empty: the file has none
-  Grid grid;               ///< the grid, if the nodes are one; else empty
+  LonLat given;  ///< longitudes and latitudes as in the file; empty: the file has none
+  Grid grid;     ///< the grid, if the nodes are one; else empty
   /// The shape of all nodes in the file, also of those left out later; empty: a list of these nodes.
   std::vector<std::size_t> shape;
   std::vector<std::size_t> numbers;  ///< of each node in the file, if some were left out; else empty
@@ -85,7 +82,7 @@ struct Nodes {
   double nominal = 0;        ///< width of cells of density 1, radians, if the file says it
 
   /// The number of the node in the file, from 1.
-  std::size_t number(std::size_t i) const { return numbers.empty() ? before + i + 1 : numbers[i]; }
+  std::size_t number(std::size_t i) const { return numbers.empty() ? i + 1 : numbers[i]; }
   /// "node 17", with its line or feature if known.
   std::string place(std::size_t i) const;
   /// Removes all triangles, and all nodes except those with these increasing indices.

@@ -111,7 +111,6 @@ OutputFile::OutputFile(const std::string& name)
 }
 
 OutputFile::~OutputFile() {
-  if (is_shared_) return;
   if (!temporary_.empty()) unlink(temporary_.c_str());
   if (to_remove_ != nullptr) to_remove_[0] = '\0';
 }
@@ -157,7 +156,7 @@ void OutputFile::copy_to_target() const {
 }
 
 TextWriter::TextWriter(const OutputFile& file)
-    : name_(file.name()), out_(std::fopen(file.path().c_str(), file.is_begun() ? "ab" : "wb"), std::fclose) {
+    : name_(file.name()), out_(std::fopen(file.path().c_str(), "wb"), std::fclose) {
   if (out_ == nullptr) fail_to_write(name_, errno);
 }
 

@@ -21,17 +21,12 @@ namespace files {
 class OutputFile {
  public:
   explicit OutputFile(const std::string& name);
-  /// A file that another OutputFile, here or in another process, creates and commits. `is_begun`: append to
-  /// what has been written.
-  OutputFile(const std::string& name, const std::string& path, bool is_begun)
-      : name_(name), temporary_(path), copies_(false), is_shared_(true), is_begun_(is_begun) {}
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
   const std::string& path() const { return temporary_; }  ///< where to write before commit()
   const std::string& name() const { return name_; }       ///< for messages
-  bool is_begun() const { return is_begun_; }
   bool has_a_name() const { return !copies_; }  ///< not stdout, a device or a pipe: others can lie beside it
   void commit();
 
@@ -39,8 +34,7 @@ class OutputFile {
   void copy_to_target() const;
   void set_permissions() const;
   std::string name_, target_, temporary_;
-  bool copies_;  ///< the target is a device, pipe or stdout: commit() copies
-  bool is_shared_ = false, is_begun_ = false;
+  bool copies_;                ///< the target is a device, pipe or stdout: commit() copies
   char* to_remove_ = nullptr;  ///< the signal handlers' copy of temporary_
 };
 

@@ -23,25 +23,15 @@ bool ends_with(const std::string& text, const std::string& end) {
   throw std::logic_error("a format that is not in the table");
 }
 
-/// Section 0 are the points, section 1 the faces.
-void write_off(TextWriter& out, const Faces& faces, int section) {
-  if (section == 0) {
-    if (faces.share_of_points.before == 0)
-      out.print("OFF\n{} {} 0\n", faces.share_of_points.total(faces.points.size()),
-                faces.share_of_faces.total(faces.size()));
-    for (const Point& p : faces.points) out.print("{} {} {}\n", p.x, p.y, p.z);
-    return;
-  }
+void write_off(const OutputFile& file, const Faces& faces) {
+  TextWriter out(file);
+  out.print("OFF\n{} {} 0\n", faces.points.size(), faces.size());
+  for (const Point& p : faces.points) out.print("{} {} {}\n", p.x, p.y, p.z);
   for (std::size_t f = 0; f < faces.size(); ++f) {
     out.print("{}", faces.corners(f));
     for (std::size_t k = faces.begin[f]; k < faces.begin[f + 1]; ++k) out.print(" {}", faces.corner[k] - 1);
     out.print("\n");
   }
-}
-
-void write_off(const OutputFile& file, const Faces& faces) {
-  TextWriter out(file);
-  for (int section = 0; section < sections_of(Format::off); ++section) write_off(out, faces, section);
   out.close();
 }
 
@@ -389,24 +379,6 @@ const std::vector<FormatEntry>& formats() {
 
 bool holds_a_mesh(Format format) { return format < Format::xyz; }
 bool holds_nodes(Format format) { return format >= Format::geojson; }
-
-bool holds_parts(Format format) {
-  return !holds_a_mesh(format) || format == Format::ugrid || format == Format::off;
-}
-
-int sections_of(Format format) { return format == Format::off ? 2 : 1; }
-
-void write_part(const OutputFile& file, Format format, const MeshPart& part, int section) {
-  if (!holds_a_mesh(format))
-    return write_nodes(file, format, part.nodes_here(),
-                       {{}, part.density, part.columns, part.notes, part.share_of_nodes});
-  if (format == Format::ugrid)
-    return write_ugrid(file, triangle_faces(part), part.nodes_here(), part.density, part.notes);
-  if (format != Format::off) refuse(file, format, "cannot be written by several ranks");
-  TextWriter out(file);
-  write_off(out, triangle_faces(part), section);
-  out.close();
-}
 
 std::optional<Format> format_of(const std::string& to, const std::string& file) {
   std::optional<Format> found;

@@ -42,18 +42,12 @@ struct FormatEntry {
 const std::vector<FormatEntry>& formats();
 bool holds_a_mesh(Format format);
 bool holds_nodes(Format format);
-/// True if several processes can write the format one after another.
-bool holds_parts(Format format);
 
 /// The format named by --to, else that of the longest suffix of `file` in the table.
 std::optional<Format> format_of(const std::string& to, const std::string& file);
 
 /// Writes a triangulation. UGRID, VTU, gmsh, GMT, GeoJSON and CSV also hold its columns.
 void write_mesh(const OutputFile& file, Format format, const Mesh& mesh);
-/// Writes one process's part of a triangulation in a format for which holds_parts() is true. All processes
-/// write section 0 one after another, then section 1, up to sections_of(format).
-int sections_of(Format format);
-void write_part(const OutputFile& file, Format format, const MeshPart& part, int section);
 /// Writes any polygons: ugrid, scrip, esmf, vtu, off, gmt, geojson, csv. Throws std::runtime_error for other
 /// formats.
 void write_faces(const OutputFile& file, Format format, const Faces& faces, const Notes& notes = {});
@@ -67,7 +61,6 @@ struct NodeValues {
   std::vector<double> density = {};
   Columns columns = {};
   Notes notes = {};
-  Share share = {};
 };
 /// Writes nodes alone: geojson, csv, xyz, lonlat, netcdf, raw. NetCDF also holds density, columns and notes,
 /// GeoJSON columns and notes, CSV columns.

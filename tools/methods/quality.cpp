@@ -3,32 +3,27 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <iterator>
-#include <numeric>
-#include <optional>
 #include <vector>
 
 #include "base/parallel_for.h"
 #include "files/limited_area.h"
 #include "geometry/measures.h"
-#include "parallel/agreement.h"
-#include "parallel/halo.h"
+#include "scvt/cells.h"
 
 namespace methods {
 namespace {
 
 using pstripack::Direction;
 using pstripack::Directions;
-using pstripack::scvt::Neighbourhood;
+using pstripack::scvt::NeighbourLists;
 
 /// Calls visit(from, to) for each triangle at node i, with the indices of its two other corners.
 template <class Visit>
-void around(const Neighbourhood& nodes, std::size_t i, const Visit& visit) {
-  const std::size_t begin = nodes.stars.begin_of(i), end = nodes.stars.end_of(i);
-  auto from = static_cast<std::size_t>(nodes.stars.neighbour[end - 1]) - 1;
+void around(const NeighbourLists& stars, std::size_t i, const Visit& visit) {
+  const std::size_t begin = stars.begin_of(i), end = stars.end_of(i);
+  auto from = static_cast<std::size_t>(stars.neighbour[end - 1]) - 1;
   for (std::size_t k = begin; k < end; ++k) {
-    const auto to = static_cast<std::size_t>(nodes.stars.neighbour[k]) - 1;
+    const auto to = static_cast<std::size_t>(stars.neighbour[k]) - 1;
     visit(from, to);
     from = to;
   }
@@ -38,90 +33,51 @@ Direction at(const Directions& directions, std::size_t i) {
   return direction_of(directions, static_cast<pstripack::index_t>(i));
 }
 
-double area_of_cell(const Neighbourhood& nodes, const Directions& directions, std::size_t i,
-                    std::vector<Direction>& ring) {
-  ring.clear();
-  around(nodes, i, [&](std::size_t, std::size_t to) { ring.push_back(at(directions, to)); });
-  return cell_area(at(directions, i), ring.data(), ring.size());
-}
-
-/// Areas of the cells of this rank's nodes, then of the halo. Sets the directions of both. Collective.
-std::vector<double> areas_of_cells(pstripack::Communicator& ranks, const Neighbourhood& nodes,
-                                   std::optional<Directions>& directions) {
-  const std::size_t own = nodes.stars.count;
-  std::vector<double> areas;
-  pstripack::in_agreement(ranks, [&] {
-    directions.emplace(nodes.points, nodes.known);
-    areas.resize(nodes.known);
-    const int threads = pstripack::threads_for(10 * own);
-    pstripack::ErrorsOfThreads errors(static_cast<std::size_t>(threads));
-    pstripack::parallel_pieces(own, threads, [&](std::size_t first, std::size_t last, int piece) {
-      errors.keep(static_cast<std::size_t>(piece), [&] {
-        std::vector<Direction> ring;
-        for (std::size_t i = first; i < last; ++i) areas[i] = area_of_cell(nodes, *directions, i, ring);
-      });
-    });
-    errors.rethrow();
-  });
-  nodes.halo->fetch<double>(
-      ranks, [&](pstripack::LocalNode k) { return areas[k]; },
-      [&](pstripack::OutsideNode j, double area) { areas[own + index_of(j)] = area; });
-  return areas;
-}
-
-/// Counts only cells and triangles of which is_kept(index of the node) is true.
-template <class Kept>
-Quality quality_of_kept(pstripack::Communicator& ranks, const Neighbourhood& nodes, const Kept& is_kept) {
-  std::optional<Directions> directions;
-  const std::vector<double> areas = areas_of_cells(ranks, nodes, directions);
-  Quality quality;
-  pstripack::SmallestReal smallest_angle;
-  pstripack::LargestReal largest_angle, largest_ratio;
-  std::int64_t counts[Quality::kMostSides + 2] = {};  // number of cells by sides, and of obtuse triangles
-  std::int64_t& obtuse = counts[Quality::kMostSides + 1];
-  for (std::size_t i = 0; i < nodes.stars.count; ++i) {
-    if (!is_kept(i)) continue;
-    const auto sides = static_cast<int>(nodes.stars.end_of(i) - nodes.stars.begin_of(i));
-    ++counts[std::min(sides, Quality::kMostSides)];
-    around(nodes, i, [&](std::size_t from, std::size_t to) {
-      if (is_kept(to)) largest_ratio.value = std::max(largest_ratio.value, areas[i] / areas[to]);
-      if (!is_kept(from) || !is_kept(to)) return;
-      if (nodes.numbers[from] < nodes.numbers[i] || nodes.numbers[to] < nodes.numbers[i]) return;
-      const pstripack::Angles angles =
-          angles_of(at(*directions, i), at(*directions, from), at(*directions, to));
-      for (const double angle : angles.at) {
-        smallest_angle.value = std::min(smallest_angle.value, angle * files::kRadian);
-        largest_angle.value = std::max(largest_angle.value, angle * files::kRadian);
+std::vector<double> areas_of_cells(const NeighbourLists& stars, const Directions& directions) {
+  std::vector<double> areas(stars.count);
+  const int threads = pstripack::threads_for(10 * areas.size());
+  pstripack::ErrorsOfThreads errors(static_cast<std::size_t>(threads));
+  pstripack::parallel_pieces(areas.size(), threads, [&](std::size_t first, std::size_t last, int piece) {
+    errors.keep(static_cast<std::size_t>(piece), [&] {
+      std::vector<Direction> ring;
+      for (std::size_t i = first; i < last; ++i) {
+        ring.clear();
+        around(stars, i, [&](std::size_t, std::size_t to) { ring.push_back(at(directions, to)); });
+        areas[i] = cell_area(at(directions, i), ring.data(), ring.size());
       }
-      if (!angles.are_acute && obtuse++ == 0) quality.place = nodes.points[i];
     });
-  }
-  agree(ranks, smallest_angle, largest_angle, largest_ratio);
-  ranks.all_sum(counts, std::size(counts));
-  std::copy_n(counts, quality.cells.size(), quality.cells.begin());
-  quality.smallest_angle = smallest_angle.value;
-  quality.largest_angle = largest_angle.value;
-  quality.largest_ratio = largest_ratio.value;
-  quality.obtuse = obtuse;
-  return quality;
+  });
+  errors.rethrow();
+  return areas;
 }
 
 }  // namespace
 
-Quality quality_of(pstripack::Communicator& ranks, const Neighbourhood& nodes) {
-  return quality_of_kept(ranks, nodes, [](std::size_t) { return true; });
-}
-
 Quality quality_of(const files::Mesh& mesh) {
-  const std::size_t n = mesh.points.size();
   if (mesh.has_boundary()) throw files::NoMesh("the nodes lie in one hemisphere");
-  std::vector<std::int64_t> numbers(n);
-  std::iota(numbers.begin(), numbers.end(), std::int64_t{1});
-  pstripack::SingleProcess alone;
-  const pstripack::Halo no_halo{};
-  return quality_of_kept(
-      alone, {mesh.points.data(), numbers.data(), {n, mesh.lend.data(), mesh.list.data()}, n, &no_halo},
-      [&](std::size_t i) { return mesh.layers.empty() || mesh.layers[i] != files::kLeftOut; });
+  const NeighbourLists stars{mesh.points.size(), mesh.lend.data(), mesh.list.data()};
+  const Directions directions(mesh.points.data(), mesh.points.size());
+  const std::vector<double> areas = areas_of_cells(stars, directions);
+  const auto is_kept = [&](std::size_t i) {
+    return mesh.layers.empty() || mesh.layers[i] != files::kLeftOut;
+  };
+  Quality quality;
+  for (std::size_t i = 0; i < stars.count; ++i) {
+    if (!is_kept(i)) continue;
+    const auto sides = static_cast<int>(stars.end_of(i) - stars.begin_of(i));
+    ++quality.cells[static_cast<std::size_t>(std::min(sides, Quality::kMostSides))];
+    around(stars, i, [&](std::size_t from, std::size_t to) {
+      if (is_kept(to)) quality.largest_ratio = std::max(quality.largest_ratio, areas[i] / areas[to]);
+      if (!is_kept(from) || !is_kept(to) || from < i || to < i) return;
+      const pstripack::Angles angles = angles_of(at(directions, i), at(directions, from), at(directions, to));
+      for (const double angle : angles.at) {
+        quality.smallest_angle = std::min(quality.smallest_angle, angle * files::kRadian);
+        quality.largest_angle = std::max(quality.largest_angle, angle * files::kRadian);
+      }
+      if (!angles.are_acute && quality.obtuse++ == 0) quality.place = mesh.points[i];
+    });
+  }
+  return quality;
 }
 
 std::string Quality::text() const {

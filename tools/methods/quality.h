@@ -7,7 +7,6 @@
 #include <string>
 
 #include "files/mesh.h"
-#include "scvt/spread.h"
 
 namespace methods {
 
@@ -15,10 +14,10 @@ struct Quality {
   static constexpr int kMostSides = 9;
   std::array<std::size_t, kMostSides + 1>
       cells{};  ///< by number of sides; the last entry counts all larger ones
-  double smallest_angle = 0, largest_angle = 0;  ///< of a triangle, in degrees
-  double largest_ratio = 0;                      ///< largest ratio of the areas of two neighbouring cells
+  double smallest_angle = 180, largest_angle = 0;  ///< of a triangle, in degrees
+  double largest_ratio = 0;                        ///< largest ratio of the areas of two neighbouring cells
   std::int64_t obtuse = 0;      ///< triangles that do not hold their circumcentre strictly: exact
-  files::Point place{0, 0, 0};  ///< a node of the first of these on this rank
+  files::Point place{0, 0, 0};  ///< a node of the first of these
 
   /// "cells by sides: 5: 12, 6: 630; angles 52.6 to 75.9 degrees; ..."
   std::string text() const;
@@ -27,9 +26,5 @@ struct Quality {
 /// Of the mesh, or of the limited area in it. Throws files::NoMesh if the nodes lie in a hemisphere. Nodes
 /// are vectors of any length.
 Quality quality_of(const files::Mesh& mesh);
-
-/// The quality of the mesh of all ranks. Each rank has one of equal slices of the nodes (slice_of in
-/// scvt/tessellation.h). Any number of ranks gives the same bits. Collective. Throws AgreedFailure.
-Quality quality_of(pstripack::Communicator& ranks, const pstripack::scvt::Neighbourhood& nodes);
 
 }  // namespace methods

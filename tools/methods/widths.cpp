@@ -181,13 +181,24 @@ void for_each_inside(const files::WidthRegion& region, double lat, std::size_t c
   }
 }
 
-}  // namespace
-
-bool WidthFormula::is_one(const std::string& text) {
-  return text.rfind("disc:", 0) == 0 || text.rfind("band:", 0) == 0;
+/// In km: a number, with or without "km", or with "m".
+double width_of(const std::string& text) {
+  double value = 0;
+  const std::size_t end = text.find_last_of("0123456789.") + 1;
+  const std::string unit = text.substr(end);
+  if (!point_sets::parse(text.substr(0, end), value) || !(value > 0) ||
+      !(unit.empty() || unit == "km" || unit == "m"))
+    throw std::invalid_argument("'" + files::excerpt(text) + "' is no width: expected, say, 60km");
+  return unit == "m" ? value / 1000 : value;
 }
 
+}  // namespace
+
 WidthFormula::WidthFormula(const std::string& text) : is_band_(text.rfind("band:", 0) == 0) {
+  if (!is_band_ && text.rfind("disc:", 0) != 0) {
+    inner_ = outer_ = width_of(text);
+    return;
+  }
   const auto fail = [&](const std::string& what) {
     throw std::invalid_argument("width '" + files::excerpt(text) + "': " + what);
   };
@@ -419,16 +430,6 @@ Widths widths_of(Table km, double radius) {
       density_of_widths(least, [table = GridValues(std::move(km))](std::size_t n, const Point* p,
                                                                    double* width) { table.at(n, p, width); }),
       least, cells};
-}
-
-double width_of(const std::string& text) {
-  double value = 0;
-  const std::size_t end = text.find_last_of("0123456789.") + 1;
-  const std::string unit = text.substr(end);
-  if (!point_sets::parse(text.substr(0, end), value) || !(value > 0) ||
-      !(unit.empty() || unit == "km" || unit == "m"))
-    throw std::invalid_argument("'" + files::excerpt(text) + "' is no width: expected, say, 60km");
-  return unit == "m" ? value / 1000 : value;
 }
 
 double cells_of_width(double width, double radius) {

@@ -26,10 +26,9 @@ struct Widths {
 /// Widths by a formula, lengths in km, angles in degrees:
 ///     disc:INNER,OUTER,RADIUS,TRANSITION,LON,LAT    INNER up to RADIUS from LON, LAT
 ///     band:INNER,OUTER,RADIUS,TRANSITION,LAT        INNER up to RADIUS from the parallel LAT
-/// and then over TRANSITION smoothly to OUTER.
+/// and then over TRANSITION smoothly to OUTER; or one width: a number, with or without "km", or with "m".
 class WidthFormula {
  public:
-  static bool is_one(const std::string& text);
   /// Throws std::invalid_argument.
   explicit WidthFormula(const std::string& text);
   /// The same width everywhere.
@@ -42,9 +41,7 @@ class WidthFormula {
   /// `distance` in km from the centre or the parallel.
   double width(double distance) const;
   Widths widths(double radius) const;
-  /// The centre; of a band there is none.
-  double lon() const { return lon_; }
-  double lat() const { return lat_; }
+  bool is_one_width() const { return inner_ == outer_; }
   double least() const { return std::min(inner_, outer_); }
   double most() const { return std::max(inner_, outer_); }
   /// The widths at unit vectors.
@@ -105,9 +102,6 @@ void set_outside(Table& table, const std::vector<bool>& inside, double gradient,
 double cells_of(const Table& widths, double radius);
 /// `radius` in km. Widths are bilinear in longitude and latitude.
 Widths widths_of(Table km, double radius);
-
-/// The width of cells in km: a number, with or without "km", or with "m". Throws std::invalid_argument.
-double width_of(const std::string& text);
 
 /// How many regular hexagons whose neighbours are `width` apart have the area of the sphere. Both in km.
 double cells_of_width(double width, double radius);

@@ -1,16 +1,16 @@
 // `pstripack scvt`.
 
 #include <fmt/format.h>
-#include <sys/time.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <csignal>
-#include <filesystem>
 #include <initializer_list>
 #include <memory>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -24,7 +24,6 @@
 #include "methods/widths.h"
 #include "numbers.h"
 #include "pstripack/options.h"
-#include "pstripack/parts.h"
 #include "pstripack/progress.h"
 #include "pstripack/ranks.h"
 #include "scvt/caller_agreement.h"
@@ -56,7 +55,6 @@ struct Options {
   std::string region, sides;     ///< that is kept; empty: the sphere
   files::LimitedArea area;       ///< the region
   files::Point centre{0, 0, 0};  ///< of its cells
-  double width = 0;              ///< of all cells, km; 0: not given
   double radius = 0;             ///< of the sphere, metres; 0: not given
   double nominal = 0;  ///< width of cells of density 1 times the root of their number, radians; 0: unknown
   double grade = 0;    ///< most that widths may change, km per km; 0: not given
@@ -69,29 +67,29 @@ struct Options {
   bool strict = false;
   std::int64_t evaluations = 10000, every = 100;
   double time_limit = 0;  ///< seconds; 0: none
-  std::string history;    ///< of --start
+  std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
+  std::string history;  ///< of --start
   bool has_widths() const { return !(width_text + width_file + width_distance).empty(); }
   Output output, checkpoint{"", "", files::Format::netcdf};
 };
 
 // Attributes of the output that let another run continue this one.
-constexpr auto kEvaluations = "scvt_iterations", kDensity = "scvt_density",
-               kDensityFile = "scvt_density_file", kWidthFile = "scvt_width_file", kWidth = "scvt_width",
-               kWidthRegion = "scvt_width_region", kWidthDistance = "scvt_width_distance",
-               kVariable = "scvt_density_variable", kRegion = "scvt_region", kSides = "scvt_sides",
-               kRadius = "scvt_radius", kGrade = "scvt_grade", kSteps = "scvt_steps", kPairs = "scvt_pairs",
+constexpr auto kEvaluations = "scvt_iterations", kSteps = "scvt_steps", kPairs = "scvt_pairs",
                kExponent = "scvt_exponent", kMark = "scvt_mark", kEnergy = "scvt_energy_at_mark";
 
-// The options that are stored in them as they are.
+// The options that are stored in others: those that say the density.
 constexpr std::pair<const char*, std::string Options::*> kStored[] = {
-    {kDensity, &Options::density},
-    {kDensityFile, &Options::density_file},
-    {kWidthFile, &Options::width_file},
-    {kWidth, &Options::width_text},
-    {kWidthRegion, &Options::width_region},
-    {kWidthDistance, &Options::width_distance},
-    {kRegion, &Options::region},
-    {kSides, &Options::sides}};
+    {"scvt_density", &Options::density},
+    {"scvt_density_file", &Options::density_file},
+    {"scvt_width_file", &Options::width_file},
+    {"scvt_width", &Options::width_text},
+    {"scvt_width_region", &Options::width_region},
+    {"scvt_width_distance", &Options::width_distance},
+    {"scvt_density_variable", &Options::variable},
+    {"scvt_region", &Options::region},
+    {"scvt_sides", &Options::sides}};
+constexpr std::pair<const char*, double Options::*> kStoredNumbers[] = {{"scvt_radius", &Options::radius},
+                                                                        {"scvt_grade", &Options::grade}};
 
 std::string note(const files::Notes& notes, const char* name) {
   const auto found = notes.find(name);
@@ -237,22 +235,6 @@ methods::Widths widths_in_file(const Options& options) {
   return widths_of(std::move(table), options);
 }
 
-/// --width, a number or a formula.
-methods::WidthFormula formula_of(const std::string& text) {
-  return methods::WidthFormula::is_one(text) ? methods::WidthFormula(text)
-                                             : methods::WidthFormula(methods::width_of(text));
-}
-
-methods::Widths widths_of_formula(const Options& options) {
-  if (methods::Table table = methods::widths_of_name(options.width_text); !table.values.empty())
-    return widths_of(std::move(table), options);
-  methods::WidthFormula formula = formula_of(options.width_text);
-  if (formula.limit(options.grade))
-    say(fmt::format("transition made {:.0f} km long, so that widths change by at most {:g} km per km",
-                    formula.transition(), options.grade));
-  return formula.widths(options.radius / 1000);
-}
-
 /// Quasi-uniform meshes of MPAS: refined icosahedra.
 constexpr std::pair<const char*, double> kQuasiUniform[] = {
     {"qu240", 10242}, {"qu120", 40962}, {"qu60", 163842}, {"qu30", 655362}, {"qu15", 2621442}};
@@ -262,9 +244,24 @@ double cells_of_quasi_uniform(const std::string& name) {
   return 0;
 }
 
+/// True if --width is a name, not a width or a formula.
+bool is_name(const std::string& width) {
+  return cells_of_quasi_uniform(width) > 0 || !methods::widths_of_name(width).values.empty();
+}
+
+/// Those of --width.
+methods::Widths widths_of_formula(const Options& options) {
+  if (is_name(options.width_text)) return widths_of(methods::widths_of_name(options.width_text), options);
+  methods::WidthFormula formula(options.width_text);
+  if (formula.limit(options.grade))
+    say(fmt::format("transition made {:.0f} km long, so that widths change by at most {:g} km per km",
+                    formula.transition(), options.grade));
+  return formula.widths(options.radius / 1000);
+}
+
 /// Those of the regions, and of the formula elsewhere.
 methods::Widths widths_of_regions(const Options& options) {
-  const methods::WidthFormula elsewhere = formula_of(options.width_text);
+  const methods::WidthFormula elsewhere(options.width_text);
   const auto regions = files::read_width_regions(options.width_region);
   methods::Table table;
   try {
@@ -279,6 +276,15 @@ methods::Widths widths_of_distance(const Options& options) {
   const methods::WidthDistance given(options.width_distance);
   const auto lines = files::read_lines(given.file);
   return widths_of(methods::widths_of_distance(lines, given, options.radius / 1000), options);
+}
+
+/// How many cells have --width, if it is one width on the whole sphere; 0: it is not.
+double cells_of_one_width(const Options& options) {
+  const std::string& text = options.width_text;
+  if (text.empty() || !(options.width_region + options.region).empty()) return 0;
+  if (is_name(text)) return cells_of_quasi_uniform(text);
+  const methods::WidthFormula formula(text);
+  return formula.is_one_width() ? methods::cells_of_width(formula.least(), options.radius / 1000) : 0;
 }
 
 /// The density of the widths; chooses N.
@@ -306,40 +312,33 @@ std::unique_ptr<engine::Density> make_density(Options& options) {
   if (options.has_widths()) return density_of_widths(options);
   if (!options.density_file.empty()) return density_in_file(options);
   if (options.density == "constant") options.nominal = std::sqrt(methods::cells_of_width(1, 1));
-  try {
-    return methods::density_of(options.density);
-  } catch (const std::invalid_argument& e) {
-    throw CLI::ValidationError("--density", e.what());
-  }
+  return methods::density_of(options.density);
 }
 
 /// Sets the density: that of the command line, else that of the start, else constant.
 void choose_density(Options& options, const files::Notes& notes) {
-  const auto choose = [&](double& number, const char* name, double otherwise) {
-    if (number == 0 && !point_sets::parse(note(notes, name), number)) number = otherwise;
-  };
-  choose(options.radius, kRadius, 6371220);  // that of MPAS' and E3SM's tools
-  choose(options.grade, kGrade, 0.2);
-  if (options.width > 0 && options.width_region.empty() && options.region.empty()) {
+  for (const auto& [name, option] : kStoredNumbers)
+    if (options.*option == 0) point_sets::parse(note(notes, name), options.*option);
+  if (!(options.radius > 0)) options.radius = 6371220;  // that of MPAS' and E3SM's tools
+  if (!(options.grade > 0)) options.grade = 0.2;
+  if (const double cells = cells_of_one_width(options); cells > 0) {
+    const bool is_new = options.first == First::by_number && options.start.file.empty();
+    if (is_name(options.width_text) && is_new) options.first = First::levels;
     options.density = "constant";
     options.width_text.clear();
-    choose_n(options, methods::cells_of_width(options.width, options.radius / 1000));
-  }
-  if (const double cells = cells_of_quasi_uniform(options.width_text); cells > 0) {
-    options.density = "constant";
-    options.width_text.clear();
-    if (options.first == First::by_number && options.start.file.empty()) options.first = First::levels;
     choose_n(options, cells);
   }
   const auto is_chosen = [&] {
-    return options.has_widths() || !(options.density.empty() && options.density_file.empty());
+    return options.has_widths() || !(options.density + options.density_file).empty();
   };
-  if (!is_chosen()) {
+  if (!is_chosen())
     for (const auto& [name, option] : kStored)
       if ((options.*option).empty()) options.*option = note(notes, name);
-    if (options.variable.empty()) options.variable = note(notes, kVariable);
+  if (!is_chosen()) {
+    options.density = "constant";
+    if (!options.start.file.empty())
+      say(options.start.file + ": holds no density: constant; say --density or widths for another one");
   }
-  if (!is_chosen()) options.density = "constant";
   if (!options.region.empty())
     options.area = limited_area_of(options.region, options.sides, options.start.read, options.radius / 1000);
   const bool widths_differ = options.has_widths();
@@ -352,11 +351,8 @@ files::Notes notes_of_density(const Options& options) {
   files::Notes notes;
   for (const auto& [name, option] : kStored)
     if (!(options.*option).empty()) notes[name] = options.*option;
-  if (options.density.empty() && !options.variable.empty()) notes[kVariable] = options.variable;
-  if (options.has_widths()) {
-    notes[kRadius] = fmt::format("{}", options.radius);
-    notes[kGrade] = fmt::format("{}", options.grade);
-  }
+  for (const auto& [name, option] : kStoredNumbers)
+    if (options.has_widths()) notes[name] = fmt::format("{}", options.*option);
   return notes;
 }
 
@@ -372,6 +368,16 @@ files::Notes notes_of(const Options& options, const State& state, const engine::
   notes["history"] = options.history;
   add_history(notes);
   return notes;
+}
+
+/// True if the file has the density of this run.
+bool has_density_of(const files::Notes& notes, const Options& options) {
+  const files::Notes chosen = notes_of_density(options);
+  const auto is_same = [&](const auto& entry) {
+    return note(notes, entry.first) == note(chosen, entry.first);
+  };
+  return std::all_of(std::begin(kStored), std::end(kStored), is_same) &&
+         std::all_of(std::begin(kStoredNumbers), std::end(kStoredNumbers), is_same);
 }
 
 // Steps and changes of the gradient are stored as columns scvt_step_1_x ... scvt_change_8_z, the oldest
@@ -395,11 +401,13 @@ files::Columns columns_of(const State& state) {
   return columns;
 }
 
-/// The pairs in the file; empty if it does not have all of them.
-std::vector<State::Pair> pairs_in(const files::Nodes& start) {
+/// The pairs in the file; empty if it does not have all of them. On other ranks than 0 as many, of no
+/// generators.
+std::vector<State::Pair> pairs_in(const files::Nodes& start, bool is_rank_0) {
   std::vector<State::Pair> pairs;
   for (std::int64_t k = 1; k <= count_in(start, kPairs, 0); ++k) {
     State::Pair& pair = pairs.emplace_back();
+    if (!is_rank_0) continue;
     for (const auto& [half, vectors] : kHalves) {
       (pair.*vectors).resize(start.points.size());
       for (const auto& [letter, component] : kComponents) {
@@ -416,8 +424,8 @@ std::vector<State::Pair> pairs_in(const files::Nodes& start) {
   return pairs;
 }
 
-/// The state of a run from its file, or from this rank's part of it. Pairs are used only if the density is
-/// the same and the method is not Lloyd's, which needs none. Collective.
+/// The state of a run from its file; the generators and pairs of rank 0. Pairs are used only if the density
+/// is the same and the method is not Lloyd's, which needs none. Collective.
 Tessellation tessellation_of(Communicator& ranks, files::Nodes& start, Options& options) {
   Tessellation t;
   pstripack::OnAll have_pairs;
@@ -429,18 +437,14 @@ Tessellation tessellation_of(Communicator& ranks, files::Nodes& start, Options& 
         options.mark = count_in(start, kMark, 0);
         point_sets::parse(note(start.notes, kEnergy), options.energy);
         t.state.exponent = static_cast<int>(count_in(start, kExponent, 0, -5000));
-        const files::Notes chosen = notes_of_density(options);
-        bool has_same_density = true;
-        for (const char* const name : {kVariable, kRadius, kGrade})
-          has_same_density &= note(start.notes, name) == note(chosen, name);
-        for (const auto& [name, option] : kStored)
-          has_same_density &= note(start.notes, name) == options.*option;
-        if (options.method == Method::newton && has_same_density) t.state.pairs = pairs_in(start);
+        if (options.method == Method::newton && has_density_of(start.notes, options))
+          t.state.pairs = pairs_in(start, ranks.rank() == 0);
         have_pairs.value = !t.state.pairs.empty();
-        if (ranks.size() == 1) triangulate(start);  // reports wrong nodes with their lines
+        if (ranks.rank() > 0) return;
+        triangulate(start);  // reports wrong nodes with their lines
         t.state.generators = engine::unit_vectors(std::move(start.points));
         t.numbers.resize(t.state.generators.size());
-        std::iota(t.numbers.begin(), t.numbers.end(), static_cast<std::int64_t>(start.before) + 1);
+        std::iota(t.numbers.begin(), t.numbers.end(), std::int64_t{1});
       },
       have_pairs);
   if (!have_pairs.value) t.state.pairs.clear();
@@ -466,51 +470,33 @@ void write(const Output& output, files::Mesh& mesh) {
   file.commit();
 }
 
-/// Writes the generators, or those in the region. A checkpoint gets all, and the pairs; for other files the
-/// quality of the mesh is returned, of a whole mesh on rank 0. Collective.
-methods::Quality write(Ranks& ranks, const Options& options, bool is_checkpoint, const Tessellation& t,
+/// Writes the generators of all ranks on rank 0, or those in the region. A checkpoint gets all, and the
+/// pairs; for other files rank 0 returns the quality of the mesh. Collective.
+methods::Quality write(Communicator& ranks, const Options& options, bool is_checkpoint, const Tessellation& t,
                        const engine::Density& density, files::Notes&& notes) {
   const Output& output = is_checkpoint ? options.checkpoint : options.output;
-  const bool is_regional = !is_checkpoint && !options.region.empty();
-  const bool needs_mesh = !is_checkpoint || !files::holds_nodes(output.format);
-  const bool needs_whole_mesh = !files::holds_parts(output.format) || is_regional;
-  if (is_checkpoint) notes[kPairs] = std::to_string(t.state.pairs.size());
-  Communicator& communicator = ranks.communicator();
-  const Tessellation slice = slice_of(communicator, t);
-  const auto complete = [&](auto& mesh, const std::vector<Point>& generators) {
-    mesh.density = engine::values_at(generators, density);
-    mesh.notes = std::move(notes);
-  };
+  Tessellation all = on_rank_0(ranks, t);
   methods::Quality quality;
-  if (needs_whole_mesh) {
-    std::vector<Point> all = on_rank_0(communicator, slice.state.generators);
-    in_agreement_with_caller(communicator, [&] {
-      if (communicator.rank() > 0) return;
-      files::Mesh mesh = files::triangulate(std::move(all));
-      complete(mesh, mesh.points);
-      mesh.nominal = options.nominal / std::sqrt(static_cast<double>(mesh.points.size()));
-      if (is_regional) keep_area(mesh, options.area);
-      if (!is_checkpoint) quality = methods::quality_of(mesh);
-      write(output, mesh);
-    });
-    return quality;
-  }
-  files::MeshPart part;
-  if (needs_mesh) {
-    // A new evaluator: that of the run keeps its mesh for the next step.
-    const std::shared_ptr<engine::Evaluator> evaluator = ranks.evaluator(density);
-    evaluator->begin_with(slice.numbers);
-    const engine::Neighbourhood nodes = evaluator->triangulate(slice.state.generators);
-    if (!is_checkpoint) quality = methods::quality_of(communicator, nodes);
-    part = part_of(communicator, nodes);
-  } else {
-    part = part_of(communicator, slice.state.generators);
-  }
-  in_agreement_with_caller(communicator, [&] {
-    complete(part, slice.state.generators);
-    if (is_checkpoint) part.columns = columns_of(slice.state);
+  in_agreement_with_caller(ranks, [&] {
+    if (ranks.rank() > 0) return;
+    files::Mesh mesh;
+    if (is_checkpoint && files::holds_nodes(output.format))
+      mesh.points = std::move(all.state.generators);
+    else
+      mesh = files::triangulate(std::move(all.state.generators));
+    mesh.density = engine::values_at(mesh.points, density);
+    mesh.notes = std::move(notes);
+    mesh.nominal = options.nominal / std::sqrt(static_cast<double>(mesh.points.size()));
+    if (is_checkpoint) {
+      mesh.notes[kPairs] = std::to_string(all.state.pairs.size());
+      if (output.format == files::Format::ugrid || output.format == files::Format::netcdf)
+        mesh.columns = columns_of(all.state);
+    } else {
+      if (!options.region.empty()) keep_area(mesh, options.area);
+      quality = methods::quality_of(mesh);
+    }
+    write(output, mesh);
   });
-  write_parts(communicator, output.file, output.format, part);
   return quality;
 }
 
@@ -531,12 +517,6 @@ Tessellation first_tessellation(const Options& options, engine::Evaluator& evalu
                       : is_regional || (options.n >= engine::kFewestOfAFront && is_alone) ? First::front
                                                                                           : First::levels;
   if (first == First::front) {
-    if (!is_alone && !is_regional)
-      throw engine::NoTessellation(
-          fmt::format("--first front: a front is made by one process: `pstripack scvt {} --first front "
-                      "--evaluations 0 -o "
-                      "start.nodes.nc`, with the same density; then ranks begin with --start start.nodes.nc",
-                      options.n));
     if (options.first == First::by_number) suggest_levels(options);
     Tessellation t;
     in_agreement_with_caller(evaluator.ranks(), [&] {
@@ -546,7 +526,7 @@ Tessellation first_tessellation(const Options& options, engine::Evaluator& evalu
       t.numbers.resize(options.n);
       std::iota(t.numbers.begin(), t.numbers.end(), std::int64_t{1});
     });
-    return slice_of(evaluator.ranks(), t);
+    return t;
   }
   engine::RunOptions on_levels;
   on_levels.levels = first == First::levels;
@@ -582,20 +562,11 @@ void end_iterations_at(std::initializer_list<int> signals) {
     if (std::signal(signal, on_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
-/// The iterations end so many seconds from now.
-void end_iterations_after(double seconds) {
-  end_iterations_at({SIGALRM});
-  const double in_range = std::clamp(seconds, 1e-6, 1e9), whole = std::floor(in_range);
-  const itimerval timer{{0, 0},
-                        {static_cast<time_t>(whole), static_cast<suseconds_t>((in_range - whole) * 1e6)}};
-  setitimer(ITIMER_REAL, &timer, nullptr);
-}
-
 constexpr int kSettled = -1;
 
-/// Returns the signal that ended the iterations, on any rank, or kSettled; 0: nothing did. Collective.
-int iterate(Options& options, Ranks& ranks, engine::Evaluator& evaluator, Tessellation& t,
-            Progress& progress) {
+/// Returns the signal that ended the iterations, on any rank, SIGALRM for the time limit, or kSettled; 0:
+/// nothing did. Collective.
+int iterate(Options& options, engine::Evaluator& evaluator, Tessellation& t, Progress& progress) {
   engine::Options of_run;
   of_run.method = options.method;
   of_run.tolerance = options.tolerance;
@@ -614,10 +585,12 @@ int iterate(Options& options, Ranks& ranks, engine::Evaluator& evaluator, Tessel
       options.mark = p.evaluations;
       options.energy = p.energy;
     }
-    signal.value = signal_received;
-    agree(ranks.communicator(), signal);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - options.begin;
+    const bool is_late = options.time_limit > 0 && elapsed.count() > options.time_limit;
+    signal.value = signal_received == 0 && is_late ? SIGALRM : signal_received;
+    agree(evaluator.ranks(), signal);
     if (!options.checkpoint.file.empty() && (signal.value != 0 || t.state.steps % options.every == 0))
-      write(ranks, options, true, t, evaluator.density(), notes_of(options, t.state, p));
+      write(evaluator.ranks(), options, true, t, evaluator.density(), notes_of(options, t.state, p));
     return signal.value == 0 && !has_settled;
   };
   end_iterations_at({SIGTERM, SIGINT});
@@ -676,47 +649,30 @@ std::string what_is_missing(const Options& options, const Tessellation& t, const
   return "";
 }
 
-/// Reads the nodes to start from; several ranks read a part each. Collective.
+/// Reads the nodes to start from on rank 0; the other ranks get only their notes. Collective.
 files::Nodes read_start(Communicator& ranks, const Options& options) {
   files::Nodes start;
+  std::string notes;
   in_agreement_with_caller(ranks, [&] {
+    if (ranks.rank() > 0) return;
     Input input = options.start;
     input.read.with_columns = true;
-    if (ranks.size() == 1) {
-      start = read_nodes(input);
-      return;
-    }
-    if (input.drops() || input.within.radians > 0)
-      throw std::runtime_error(
-          fmt::format("--duplicates, --duplicates-within: several ranks cannot join nodes: "
-                      "`pstripack convert {} --duplicates first -o "
-                      "start.nodes.nc` writes what they can read",
-                      input.file));
-    if (input.file == "-" || (std::filesystem::exists(input.file) && !files::is_netcdf(input.file)))
-      throw std::runtime_error(fmt::format(
-          "{}: several ranks read NetCDF, each its part: `pstripack convert {} -o start.nodes.nc` writes it",
-          input.file, input.file));
-    input.read.part = static_cast<std::size_t>(ranks.rank());
-    input.read.parts = static_cast<std::size_t>(ranks.size());
-    start = read_places(input.file, input.read);
+    start = read_nodes(input);
+    notes = nlohmann::json(start.notes).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  });
+  const pstripack::Parcels all = ranks.all_gather(notes.data(), notes.size());
+  in_agreement_with_caller(ranks, [&] {
+    if (ranks.rank() > 0)
+      start.notes = nlohmann::json::parse(all.bytes.data(), all.bytes.data() + all.begin.back());
   });
   return start;
 }
 
-/// Throws if several ranks cannot read or write the requested files.
-void check_files_of_ranks(const Options& options) {
-  for (const Output* const output : {&options.output, &options.checkpoint})
-    if (!output->file.empty() && !files::holds_parts(output->format) &&
-        output->format != files::Format::mpas && (options.region.empty() || output == &options.checkpoint))
-      throw std::runtime_error(fmt::format(
-          "{}: several ranks write ugrid, mpas, off, xyz, lonlat, nodes and raw: choose one of these, "
-          "and `pstripack convert` afterwards",
-          output->file));
-  const std::string lines =
-      options.width_distance.empty() ? "" : methods::WidthDistance(options.width_distance).file;
-  for (const std::string& file :
-       {options.density_file, options.width_file, options.width_region, options.region, lines})
-    if (file == "-")
+/// Several ranks read files of widths and densities, but only rank 0 has stdin.
+void expect_files(const Options& options) {
+  for (const std::string& file : {options.density_file, options.width_file, options.width_region,
+                                  options.region, options.width_distance})
+    if (file == "-" || file.rfind("-:", 0) == 0)
       throw std::runtime_error(
           "--density-file -, --width-file -, --width-region -, --width-distance -, --region -: several ranks "
           "cannot read stdin: name a file");
@@ -726,7 +682,7 @@ void check_files_of_ranks(const Options& options) {
 void scvt(Options& options, Ranks& ranks) {
   Communicator& communicator = ranks.communicator();
   in_agreement_with_caller(communicator, [&] {
-    if (communicator.size() > 1) check_files_of_ranks(options);
+    if (communicator.size() > 1) expect_files(options);
     if (communicator.rank() > 0) return;
     for (const Output* const output : {&options.output, &options.checkpoint})
       if (!output->file.empty())
@@ -749,14 +705,13 @@ void scvt(Options& options, Ranks& ranks) {
       return tessellation_of(communicator, start, options);
     });
     const std::int64_t steps_before = t.state.steps;
-    const int signal =
-        progress.step("iterating", [&] { return iterate(options, ranks, *evaluator, t, progress); });
+    const int signal = progress.step("iterating", [&] { return iterate(options, *evaluator, t, progress); });
     const engine::Progress reached = t.result.progress;
     evaluator.reset();  // writing needs memory of its own
     t.state.pairs.clear();
     t.result.cells = {};
     const methods::Quality quality = progress.step("writing", [&] {
-      return write(ranks, options, false, t, *density, notes_of(options, t.state, reached));
+      return write(communicator, options, false, t, *density, notes_of(options, t.state, reached));
     });
     progress.finish(fmt::format("{} generators, {} evaluations, {}: gradient {:.3g}, energy {:.9g}",
                                 reached.generators, t.state.evaluations,
@@ -782,28 +737,37 @@ void scvt(Options& options, Ranks& ranks) {
 void scvt(Options& options) {
   if (options.start.file.empty() ? options.n == 0 && !options.has_widths() : options.n > 0)
     throw CLI::ValidationError("N", "give either N or widths, for new generators, or --start FILE");
-  if (!options.width_region.empty() && options.width_text.empty())
-    throw CLI::ValidationError("--width-region", "say also --width, that of the cells elsewhere");
   if (!options.region.empty() && options.start.file.empty() && !options.has_widths())
     throw CLI::ValidationError("--region",
                                "say also the widths there: --width, --width-file or --width-distance");
   const std::string& width = options.width_text;
-  const bool is_name = !width.empty() && options.width == 0 && !methods::WidthFormula::is_one(width);
-  if (is_name && !options.width_region.empty())
-    throw CLI::ValidationError("--width-region", "not with " + width + ": say a width, as in 60km");
-  if (cells_of_quasi_uniform(width) > 0 && !options.region.empty())
-    throw CLI::ValidationError("--region", "not with " + width + ": say a width, as in 60km");
+  const char* const of_part = !options.width_region.empty() && is_name(width) ? "--width-region"
+                              : !options.region.empty() && cells_of_quasi_uniform(width) > 0 ? "--region"
+                                                                                             : nullptr;
+  if (of_part != nullptr)
+    throw CLI::ValidationError(of_part, "not with " + width + ": say a width, as in 60km");
   options.output.choose();
   options.well_centred = options.well_centred || options.output.format == files::Format::mpas;
   options.output.radius = options.radius;
   if (!options.checkpoint.file.empty()) options.checkpoint.choose(files::Format::netcdf);
-  if (!options.density.empty()) make_density(options);
-  if (options.time_limit > 0) end_iterations_after(options.time_limit);
   try {
     on_all_ranks([&](Ranks& ranks) { scvt(options, ranks); });
   } catch (const pstripack::AgreedFailure&) {
     throw std::bad_alloc();  // some rank is out of memory
   }
+}
+
+/// A check of an option: the text must be one from which parse(text) makes something.
+template <class Parse>
+std::function<std::string(const std::string&)> parsed_by(const Parse& parse) {
+  return [parse](const std::string& text) -> std::string {
+    try {
+      parse(text);
+      return "";
+    } catch (const std::invalid_argument& e) {
+      return e.what();
+    }
+  };
 }
 
 }  // namespace
@@ -825,57 +789,37 @@ void add_scvt(CLI::App& app, Command& chosen) {
   sub->add_option("--start", options->start.file,
                   "initial generators, or the output or checkpoint of a run to continue")
       ->type_name("FILE");
-  CLI::Option* const formula =
-      sub->add_option("--density", options->density, "density, see below [that of --start, or constant]")
-          ->type_name("FORMULA");
+  sub->add_option("--density", options->density, "density, see below [that of --start, or constant]")
+      ->type_name("FORMULA")
+      ->check(parsed_by([](const std::string& text) { methods::density_of(text); }));
   sub->add_option("--density-file", options->density_file,
                   "density at nodes, linear in between: lines of lon lat value or x y z value, or NetCDF")
-      ->type_name("FILE")
-      ->excludes(formula);
-  sub->add_option_function<std::string>(
-         "--width",
-         [=](const std::string& text) {
-           try {
-             options->width_text = text;
-             if (methods::WidthFormula::is_one(text))
-               methods::WidthFormula{text};
-             else if (methods::widths_of_name(text).values.empty() && cells_of_quasi_uniform(text) == 0)
-               options->width = methods::width_of(text);
-           } catch (const std::invalid_argument& e) {
-             throw CLI::ValidationError("--width", e.what());
-           }
-         },
-         "width of all cells, as in 60km, or a formula, see below. It is the distance of neighbours in a "
-         "mesh of regular hexagons; N follows from it")
+      ->type_name("FILE");
+  sub->add_option(
+         "--width", options->width_text,
+         "width of all cells, as in 60km, or a formula, see below. It is the distance of neighbours in "
+         "a mesh of regular hexagons; N follows from it")
       ->type_name("WIDTH")
-      ->excludes("--density")
-      ->excludes("--density-file");
+      ->check(parsed_by([](const std::string& text) {
+        if (!is_name(text)) methods::WidthFormula{text};
+      }));
   sub->add_option("--width-file", options->width_file,
                   "widths in km, bilinear on a longitude-latitude grid (NetCDF): cellWidth(lat, lon)")
-      ->type_name("FILE")
-      ->excludes("--width")
-      ->excludes("--density")
-      ->excludes("--density-file");
+      ->type_name("FILE");
   sub->add_option("--width-region", options->width_region,
                   "GeoJSON polygons with properties width and transition, km, within --width elsewhere")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->needs("--width");
   sub->add_option(
          "--width-distance", options->width_distance,
          "widths of NEAR km at the lines or polygons of a GeoJSON file, growing to FAR at KM km from them")
       ->type_name("FILE:NEAR:FAR:KM")
-      ->check([](const std::string& text) {
-        try {
-          methods::WidthDistance{text};
-        } catch (const std::invalid_argument& e) {
-          return std::string(e.what());
-        }
-        return std::string();
-      })
-      ->excludes("--width")
-      ->excludes("--width-file")
-      ->excludes("--width-region")
-      ->excludes("--density")
-      ->excludes("--density-file");
+      ->check(parsed_by([](const std::string& text) { methods::WidthDistance{text}; }));
+  const char* const one_of_these[] = {"--density", "--density-file", "--width", "--width-file",
+                                      "--width-distance"};
+  for (const char* const a : one_of_these)
+    for (const char* const b : one_of_these)
+      if (a != b) sub->get_option(a)->excludes(sub->get_option(b));
   add_limited_area(*sub, options->region, options->sides)->excludes("--density")->excludes("--density-file");
   sub->add_option("--grade", options->grade,
                   "largest change of widths, km per km: widths above it are lowered [0.2]")
@@ -919,7 +863,7 @@ void add_scvt(CLI::App& app, Command& chosen) {
   add_duplicates(*sub, options->start);
   add_output(*sub, options->output, true);
   sub->footer(R"(First generators:
-  front                               an advancing front, nearly centroidal; independent of --seed; not on several ranks
+  front                               an advancing front, nearly centroidal; independent of --seed
   levels                              few random generators, alternately made centroidal and refined
   random                              random generators, distributed by the density
 

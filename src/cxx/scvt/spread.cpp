@@ -161,17 +161,4 @@ Rows moved(Communicator& ranks, Rows rows, const std::vector<std::int32_t>& to) 
   return here;
 }
 
-std::vector<std::int32_t> ranks_of_slices(const Communicator& ranks, std::int64_t n,
-                                          const std::vector<std::int64_t>& numbers) {
-  const auto size = static_cast<std::size_t>(ranks.size()), all = static_cast<std::size_t>(n);
-  std::vector<std::size_t> end;
-  for (std::size_t r = 1; r <= size; ++r) end.push_back(slice_begin(all, r, size));
-  std::vector<std::int32_t> rank;
-  rank.reserve(numbers.size());
-  for (const std::int64_t number : numbers)
-    rank.push_back(static_cast<std::int32_t>(
-        std::lower_bound(end.begin(), end.end(), static_cast<std::size_t>(number)) - end.begin()));
-  return rank;
-}
-
 }  // namespace pstripack::scvt

@@ -48,10 +48,6 @@ struct Rows {
 /// exchange. Collective. Throws AgreedFailure.
 Rows moved(Communicator& ranks, Rows rows, const std::vector<std::int32_t>& to);
 
-/// The rank of each number, where rank r has the r-th of equal slices of 1..n.
-std::vector<std::int32_t> ranks_of_slices(const Communicator& ranks, std::int64_t n,
-                                          const std::vector<std::int64_t>& numbers);
-
 /// The sum of `mine` over all ranks. Collective.
 std::int64_t sum_of_all(Communicator& ranks, std::size_t mine);
 /// The sum of `mine` over the ranks below this one. Collective.

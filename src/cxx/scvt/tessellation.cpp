@@ -107,18 +107,12 @@ void iterate(Evaluator& evaluator, Tessellation& t, const Options& options) {
   t.result = solve(evaluator, t.state, options, t.repair);
 }
 
-Tessellation slice_of(Communicator& ranks, const Tessellation& t) {
-  Tessellation slice;
-  slice.state.evaluations = t.state.evaluations;
-  slice.state.steps = t.state.steps;
-  slice.state.exponent = t.state.exponent;
-  slice.state.no_descent = t.state.no_descent;
-  slice.state.no_decrease = t.state.no_decrease;
-  std::vector<std::int32_t> ranks_of;
-  const std::int64_t n = sum_of_all(ranks, t.numbers.size());
-  in_agreement(ranks, [&] { ranks_of = ranks_of_slices(ranks, n, t.numbers); });
-  move(ranks, t, ranks_of, slice);
-  return slice;
+Tessellation on_rank_0(Communicator& ranks, const Tessellation& t) {
+  Tessellation all;
+  std::vector<std::int32_t> zeros;
+  in_agreement(ranks, [&] { zeros.resize(t.numbers.size()); });
+  move(ranks, t, zeros, all);
+  return all;
 }
 
 Point unit_vector(const Point& g) {

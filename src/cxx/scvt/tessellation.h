@@ -44,9 +44,9 @@ Result solve(Evaluator& evaluator, State& state, const Options& options, Repair&
 /// Throws what minimize throws.
 void iterate(Evaluator& evaluator, Tessellation& tessellation, const Options& options);
 
-/// The same numbers and state, redistributed: rank r gets the r-th of equal slices of 1, 2, ... `result` is
-/// not copied. Collective. Throws AgreedFailure.
-Tessellation slice_of(Communicator& ranks, const Tessellation& tessellation);
+/// The generators of all ranks and the pairs of their state, in order and on rank 0. Collective. Throws
+/// AgreedFailure.
+Tessellation on_rank_0(Communicator& ranks, const Tessellation& tessellation);
 
 /// A tessellation of n >= 4 generators for the density, on this process alone. Throws what minimize throws.
 Tessellation run(std::size_t n, const Density& density, const RunOptions& options);
