@@ -340,7 +340,7 @@ def test_cells_are_cut_at_polygons():
         frame = mesh.to_geodataframe(clip=catchment)
         assert frame.geometry.iloc[-1] is None and frame["area_km2"].iloc[-1] == 0 and len(frame) == 41
         all_inside = sum(map(area_with_holes, catchment.geoms)) * EARTH**2
-        assert frame["area_km2"].sum() == pytest.approx(all_inside, rel=1e-6)
+        assert frame["area_km2"].sum() == pytest.approx(all_inside, rel=1e-4)
         for shape, area in zip(frame.geometry, frame["area_km2"]):
             found = sum(map(area_on_sphere, getattr(shape, "geoms", [shape]))) * EARTH**2 if shape is not None else 0
             # The sides of cells are arcs, drawn as lines within 0.001 degrees.

@@ -23,6 +23,22 @@ using pstripack::Point;
 using Line = std::vector<Point>;
 using Ring = std::vector<std::pair<double, double>>;
 
+/// Adds the arc from a to b, without b, as longitudes and latitudes of a line on the map that is within 2e-7
+/// rad of it and begins within 180 degrees of the end of `line`.
+void add_arc(const Point& a, const Point& b, Ring& line) {
+  constexpr double kStep = 0.1;  // degrees. An arc leaves a line on the map by at most step^2 / 16.
+  constexpr double kShort = 1e-8;
+  const double turn = std::remainder(longitude(b) - longitude(a), 360), up = latitude(b) - latitude(a);
+  if (std::max(std::fabs(turn), std::fabs(up)) > kStep && length(minus(a, b)) > kShort) {
+    const Point middle = unit({a.x + b.x, a.y + b.y, a.z + b.z});
+    add_arc(a, middle, line);
+    add_arc(middle, b, line);
+    return;
+  }
+  const double lon = longitude(a), before = line.empty() ? lon : line.back().first;
+  line.emplace_back(lon + 360 * std::round((before - lon) / 360), latitude(a));
+}
+
 /// The closed line of arcs on the map, from a turn of the first corner's longitude on. A line around a pole
 /// is closed along the one that gives it the smaller area.
 Ring on_map(const Line& corners, double lon) {
@@ -41,30 +57,22 @@ Ring on_map(const Line& corners, double lon) {
 
 }  // namespace
 
-void add_arc(const Point& a, const Point& b, Ring& line) {
-  constexpr double kStep = 0.1;  // degrees. An arc leaves a line on the map by at most step^2 / 16.
-  constexpr double kShort = 1e-8;
-  const double turn = std::remainder(longitude(b) - longitude(a), 360), up = latitude(b) - latitude(a);
-  if (std::max(std::fabs(turn), std::fabs(up)) > kStep && length(minus(a, b)) > kShort) {
-    const Point middle = unit({a.x + b.x, a.y + b.y, a.z + b.z});
-    add_arc(a, middle, line);
-    add_arc(middle, b, line);
-    return;
-  }
-  const double lon = longitude(a), before = line.empty() ? lon : line.back().first;
-  line.emplace_back(lon + 360 * std::round((before - lon) / 360), latitude(a));
+MapRegion region_of_box(const Region& box) {
+  const auto [west, east, south, north] = box;
+  return {0, "", {{{west, south}, {east, south}, {east, north}, {west, north}, {west, south}}}};
 }
 
 MapRegion region_of_arcs(Line corners, const Point& inside) {
   MapRegion region{1, "", {on_map(corners, longitude(corners[0]))}};
   Ring& ring = region.rings[0];
-  double west = std::min_element(ring.begin(), ring.end())->first;
-  const double shift = west < -180 ? 360 : 0;
-  for (auto& corner : ring) corner.first += shift;
-  west += shift;
-  if (!region.contains(inside))  // then all around it
-    region.rings.insert(region.rings.begin(),
-                        {{west, -90}, {west + 360, -90}, {west + 360, 90}, {west, 90}, {west, -90}});
+  if (!region.contains(inside)) {  // then all around it
+    const auto [west, east] = std::minmax_element(ring.begin(), ring.end());
+    const double middle = (west->first + east->first) / 2;
+    if (east->first - west->first >= 360)  // a line around a pole
+      for (std::size_t k = ring.size() - 3; k < ring.size() - 1; ++k) ring[k].second *= -1;
+    else
+      region.rings.insert(region.rings.begin(), region_of_box({middle - 180, middle + 180}).rings[0]);
+  }
   region.corners = {std::move(corners)};
   return region;
 }
@@ -86,7 +94,7 @@ MapRegion ellipse_region(double lon, double lat, double a, double b, double turn
   return region_of_arcs(std::move(line), centre);
 }
 
-void follow_great_circles(MapRegion& region) {
+void follow_great_circles(const std::string& name, MapRegion& region) {
   for (Ring& ring : region.rings) {
     Line& line = region.corners.emplace_back();
     for (std::size_t i = 0; i + 1 < ring.size(); ++i) {
@@ -95,9 +103,9 @@ void follow_great_circles(MapRegion& region) {
       line.push_back(point_sets::from_degrees(x, y));
       if (std::fabs(to_x - x) >= 180 && std::fabs(y + to_y) < 180)
         throw std::runtime_error(fmt::format(
-            "feature {}: its side from {:g},{:g} to {:g},{:g} is no arc of less than 180 degrees: "
+            "{}: {}its side from {:g},{:g} to {:g},{:g} is no arc of less than 180 degrees: "
             "add corners between them",
-            region.feature, x, y, to_x, to_y));
+            name, region.feature > 0 ? fmt::format("feature {}: ", region.feature) : "", x, y, to_x, to_y));
     }
     ring = on_map(line, ring[0].first);
   }
@@ -211,8 +219,6 @@ class PtsFile {
 
 }  // namespace
 
-std::vector<MapRegion> read_pts(const std::string& file, double radius) {
-  return {PtsFile(file).region(radius)};
-}
+MapRegion read_pts(const std::string& file, double radius) { return PtsFile(file).region(radius); }
 
 }  // namespace files

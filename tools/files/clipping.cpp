@@ -1,11 +1,20 @@
+// Voronoi cells cut at polygons, on a plane on which the borders of cells are straight: seen from the centre
+// of the sphere, the plane that touches it in the middle of the polygon. A cell is what lies on the left of
+// each of its sides, so a polygon with holes is cut along one line after the other. Coordinates are
+// differences from the middle: a polygon of metres has as many digits as one of continents.
 #include "files/clipping.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <string>
 #include <tuple>
 #include <utility>
 
+#include "files/cut_rings.h"
 #include "files/map_rings.h"
 #include "files/measures.h"
 #include "files/pieces.h"
@@ -15,182 +24,508 @@
 namespace files {
 namespace {
 
-/// A side of the hull, counterclockwise.
-struct Side {
-  MapCorner from, to;
+using Place = std::pair<double, double>;  // longitude and latitude, degrees
+
+/// What is nearer to a line than this, in radians, is on it: 13 nm on the Earth. Corners and nodes are
+/// rounded to 2e-16, lines on a plane to a few times as much.
+constexpr double kOnLine = 2e-15;
+/// Parts narrower than this are left out.
+constexpr double kThin = 4 * kOnLine;
+/// Points nearer than this, in radians, are one corner: they are rounded in other planes.
+constexpr double kSameCorner = 1e-14;
+
+/// On a plane, or on the map: longitude and latitude.
+struct Corner {
+  double u, v;
+  std::int32_t place = -1;   ///< which corner of the polygon it is; -1: none
+  std::ptrdiff_t side = -1;  ///< to the next corner: which of Faces::corner it begins at in a cell; -1: none
+};
+using Ring = std::vector<Corner>;
+using Rings = std::vector<Ring>;  ///< interior on the left: outlines counterclockwise, holes clockwise
+
+/// Of what lies on its left, side() is positive. a*a + b*b = 1.
+struct Line {
+  double a, b, c;
+
+  double side(const Corner& p) const { return a * p.u + b * p.v + c; }
+  Line reversed() const { return {-a, -b, -c}; }
 };
 
-constexpr std::size_t kInside = static_cast<std::size_t>(-1);
-/// A part of a cell, and the side of the hull that leads to each next corner; kInside: none.
-struct Part {
-  MapRing ring;
-  std::vector<std::size_t> along;
-
-  void add(const MapCorner& c, std::size_t side) {
-    ring.push_back(c);
-    along.push_back(side);
-  }
-};
-
-/// True if the node is on the arc, up to rounding of the great circle of ends that may be nearly opposite.
-bool is_on(const MapCorner& node, const MapCorner& p, const MapCorner& q, double tolerance) {
-  return distance_to_arc(node.p, p.p, q.p) < tolerance;
+/// `side`: of the new sides.
+Rings cut(const Rings& rings, const Line& line, std::ptrdiff_t side = -1) {
+  return cut_rings(
+      rings, [&](const Corner& p) { return line.side(p) > kOnLine; },
+      [&](const Corner& p, const Corner& q, bool leaves) {
+        const double at_p = line.side(p), t = std::clamp(at_p / (at_p - line.side(q)), 0.0, 1.0);
+        Corner c = t == 0 ? p : t == 1 ? q : Corner{p.u + t * (q.u - p.u), p.v + t * (q.v - p.v)};
+        c.side = leaves ? side : p.side;
+        return c;
+      },
+      [&](const Corner& p) { return line.b * p.u - line.a * p.v; });
 }
 
-/// Cuts a convex polygon at the great circle of side k and keeps what lies left of it. True if anything was
-/// cut off.
-bool cut(Part& part, const std::vector<Side>& sides, std::size_t k) {
-  const MapRing& ring = part.ring;
-  const Side& side = sides[k];
-  const Point &a = side.from.p, &b = side.to.p;
-  std::vector<int> at(ring.size());
-  bool all = true;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    at[i] = pstripack::left(a, b, ring[i].p);
-    all = all && at[i] >= 0;
+struct Box {
+  double west = INFINITY, east = -INFINITY, south = INFINITY, north = -INFINITY;
+
+  void add(const Corner& c) {
+    west = std::min(west, c.u), east = std::max(east, c.u);
+    south = std::min(south, c.v), north = std::max(north, c.v);
   }
-  if (all) return false;
-  Part kept;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const std::size_t next = (i + 1) % ring.size();
-    if (at[i] >= 0) kept.add(ring[i], at[i] == 0 && at[next] < 0 ? k : part.along[i]);
-    if (at[i] * at[next] >= 0) continue;
-    const std::size_t along = at[i] > 0 ? k : part.along[i];
-    // Neighbouring sides of the hull meet in their node, or opposite it. Take the node itself: if they are
-    // nearly one arc, their rounded intersection is far from it.
-    const bool meets_last = part.along[i] == (k + sides.size() - 1) % sides.size(),
-               meets_next = part.along[i] == (k + 1) % sides.size();
-    if (const MapCorner& node = meets_last ? side.from : side.to;
-        (meets_last || meets_next) && is_on(node, ring[i], ring[next], 1e-6)) {
-      kept.add(node, along);
+  void add(const Box& box) {
+    add(Corner{box.west, box.south});
+    add(Corner{box.east, box.north});
+  }
+  Ring ring() const { return {{west, south}, {east, south}, {east, north}, {west, north}}; }
+  Place middle() const { return {(west + east) / 2, (south + north) / 2}; }
+};
+Box box_of(const Rings& rings) {
+  Box box;
+  for (const Ring& ring : rings)
+    for (const Corner& c : ring) box.add(c);
+  return box;
+}
+
+/// Calls visit(p, q) for the sides of the ring, from p to q.
+template <class Visit>
+void for_each_side(const Ring& ring, const Visit& visit) {
+  for (std::size_t i = 0; i < ring.size(); ++i) visit(ring[i], ring[(i + 1) % ring.size()]);
+}
+
+/// Positive if counterclockwise.
+double area_on_plane(const Ring& ring) {
+  double twice = 0;
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i)
+    twice += (ring[i].u - ring[0].u) * (ring[i + 1].v - ring[0].v) -
+             (ring[i + 1].u - ring[0].u) * (ring[i].v - ring[0].v);
+  return twice / 2;
+}
+
+double length_on_plane(const Ring& ring) {
+  double around = 0;
+  for_each_side(ring, [&](const Corner& p, const Corner& q) { around += std::hypot(q.u - p.u, q.v - p.v); });
+  return around;
+}
+
+/// The area on the sphere of a ring on a plane, from differences of its corners (measures.h: triangle_area).
+double area_on_sphere(const Ring& ring) {
+  const auto length_of = [](const Corner& p) { return std::sqrt(p.u * p.u + p.v * p.v + 1); };
+  const auto product = [](const Corner& p, const Corner& q) { return p.u * q.u + p.v * q.v + 1; };
+  double area = 0;
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
+    const Corner &a = ring[0], &b = ring[i], &c = ring[i + 1];
+    const double volume = (b.u - a.u) * (c.v - a.v) - (c.u - a.u) * (b.v - a.v);
+    const double of_a = length_of(a), of_b = length_of(b), of_c = length_of(c);
+    area += 2 * std::atan2(volume, of_a * of_b * of_c + product(a, b) * of_c + product(b, c) * of_a +
+                                       product(c, a) * of_b);
+  }
+  return area;
+}
+
+/// The plane that touches the sphere in a place.
+class Plane {
+ public:
+  explicit Plane(const Place& place)
+      : lon_(place.first),
+        lat_(place.second),
+        sine_(point_sets::sin_degrees(lat_)),
+        cosine_(point_sets::cos_degrees(lat_)),
+        up_(point_sets::from_degrees(lon_, lat_)),
+        east_{-point_sets::sin_degrees(lon_), point_sets::cos_degrees(lon_), 0},
+        north_(cross(up_, east_)) {}
+
+  Corner at(double lon, double lat) const {
+    const double cosine = point_sets::cos_degrees(lat), half = point_sets::sin_degrees((lon - lon_) / 2),
+                 sag = 2 * cosine * half * half;
+    const double up = point_sets::cos_degrees(lat - lat_) - cosine_ * sag;
+    return {cosine * point_sets::sin_degrees(lon - lon_) / up,
+            (point_sets::sin_degrees(lat - lat_) + sine_ * sag) / up};
+  }
+  Point on_sphere(const Corner& c) const {
+    return unit({up_.x + c.u * east_.x + c.v * north_.x, up_.y + c.u * east_.y + c.v * north_.y,
+                 up_.z + c.u * east_.z + c.v * north_.z});
+  }
+  /// The great circle with this normal; none if it is the horizon.
+  std::optional<Line> line(const Point& normal) const {
+    const double a = dot(normal, east_), b = dot(normal, north_), norm = std::hypot(a, b);
+    if (norm < 1e-9 * length(normal)) return {};
+    return Line{a / norm, b / norm, dot(normal, up_) / norm};
+  }
+  const Point& middle() const { return up_; }
+
+ private:
+  double lon_, lat_, sine_, cosine_;
+  Point up_, east_, north_;
+};
+
+/// The rings on the map, with the interior on their left.
+Rings oriented(const MapRegion& region) {
+  Rings rings;
+  for (const auto& corners : region.rings) {
+    Ring ring;
+    for (std::size_t i = 0; i + 1 < corners.size(); ++i)
+      ring.push_back({corners[i].first, corners[i].second});
+    if ((area_on_plane(ring) < 0) == rings.empty()) std::reverse(ring.begin(), ring.end());
+    rings.push_back(std::move(ring));
+  }
+  return rings;
+}
+
+/// The rings on the map, cut into pieces that lie within 75 degrees of the middle of their box. Only a
+/// polygon that does not is cut, at meridians and the equator.
+std::vector<Rings> pieces_on_map(const Rings& rings) {
+  std::vector<Rings> pieces, queue{rings};
+  while (!queue.empty()) {
+    const Rings piece = std::move(queue.back());
+    queue.pop_back();
+    if (piece.empty()) continue;
+    const Box box = box_of(piece);
+    const double width = box.east - box.west, lat = (box.south + box.north) / 2;
+    bool is_near = width <= 360 - 1e-9;
+    for (const double end : {box.south, box.north})
+      is_near = is_near && point_sets::sin_degrees(lat) * point_sets::sin_degrees(end) +
+                                   point_sets::cos_degrees(lat) * point_sets::cos_degrees(end) *
+                                       point_sets::cos_degrees(width / 2) >
+                               0.26;
+    if (is_near) {
+      pieces.push_back(piece);
       continue;
     }
-    // Start at the smaller end, so that the cells on both sides of the arc compute the same bits.
-    const bool swap = std::tie(ring[next].p.x, ring[next].p.y, ring[next].p.z) <
-                      std::tie(ring[i].p.x, ring[i].p.y, ring[i].p.z);
-    const Point &p = ring[swap ? next : i].p, &q = ring[swap ? i : next].p;
-    const double at_p = volume(a, b, p), at_q = volume(a, b, q);
-    const double t = at_p == at_q ? 0.5 : std::clamp(at_p / (at_p - at_q), 0.0, 1.0);
-    const Point x = unit({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), p.z + t * (q.z - p.z)});
-    const LonLat angles({x}, true);
-    kept.add({x, angles.lon[0], angles.lat[0]}, along);
+    const double middle = (box.west + box.east) / 2;
+    const Line line = width > 90 ? Line{1, 0, -middle} : Line{0, 1, 0};
+    for (const Line& side : {line, line.reversed()}) {
+      Rings& half = queue.emplace_back(cut(piece, side));
+      for (Ring& ring : half)
+        for (Corner& c : ring)
+          if (std::fabs(side.side(c)) < 1e-12) (side.a != 0 ? c.u : c.v) = side.a != 0 ? middle : 0;
+    }
   }
-  part = std::move(kept);
-  return true;
+  return pieces;
 }
 
-/// A region narrower than this, in degrees, has no parts: its corners would be one.
-constexpr double kLeastRegion = 1e-10;
+/// Number of arcs that keep as near to a side that is straight on the map as clipped_to_polygons() promises.
+///
+/// Go along the side in unit time, a radians to the east and b to the north. Its acceleration across it, on
+/// the sphere, is sin(lat) a (2 b^2 + c^2) / v, c = a cos(lat), v = |(b,c)|; as b^2 <= b v, at most |sin(lat)
+/// a| (v + |b|). The arc of one n-th of the side is an eighth of this over n^2 away. No arc is longer than 10
+/// degrees, where higher terms are a hundredth of this; 1.1 is for them.
+int divisions_of(const Corner& p, const Corner& q) {
+  constexpr double kOfLength = 5e-7, kLeast = 1e-9;
+  if (p.u == q.u || (p.v == 0 && q.v == 0)) return 1;
+  const double a = std::fabs(q.u - p.u) / kRadian, b = std::fabs(q.v - p.v) / kRadian;
+  const double sine =
+      std::max(std::fabs(point_sets::sin_degrees(p.v)), std::fabs(point_sets::sin_degrees(q.v)));
+  const double cosine =
+      p.v * q.v < 0 ? 1 : std::max(point_sets::cos_degrees(p.v), point_sets::cos_degrees(q.v));
+  const double length = std::hypot(b, a * cosine), bend = 1.1 * sine * a * (length + b) / 8,
+               most = std::max(kOfLength * length, kLeast);
+  return static_cast<int>(std::ceil(std::max({1.0, std::sqrt(bend / most), std::max(a, b) * kRadian / 10})));
+}
 
-/// Corners are rounded to 1e-16 rad: in a hull narrower than some 1e-10 rad the parts of cells have no
-/// meaning.
-void expect_area_of_hull(const Faces& parts, const Mesh& mesh) {
-  constexpr double kMost = 1e-6;  // of the hull
-  const auto sum = [](const std::vector<double>& areas) {
-    return std::accumulate(areas.begin(), areas.end(), 0.0);
+/// One piece of a polygon on its plane.
+struct Sheet {
+  Plane plane;
+  Rings rings;
+  std::vector<Place> places;  ///< of its corners
+
+  explicit Sheet(const Rings& piece) : plane(box_of(piece).middle()) {
+    for (const Ring& on_map : piece) {
+      Ring ring;
+      const auto add = [&](double lon, double lat) {
+        Corner c = plane.at(lon, lat);
+        if (!ring.empty() && ring.back().u == c.u && ring.back().v == c.v) return;
+        c.place = static_cast<std::int32_t>(places.size());
+        places.emplace_back(lon, lat);
+        ring.push_back(c);
+      };
+      for_each_side(on_map, [&](const Corner& p, const Corner& q) {
+        add(p.u, p.v);
+        const int n = divisions_of(p, q);
+        const bool swap = Place(q.u, q.v) < Place(p.u, p.v);  // the same bits in both directions
+        const Corner &from = swap ? q : p, &to = swap ? p : q;
+        for (int k = 1; k < n; ++k) {
+          const double t = static_cast<double>(swap ? n - k : k) / n;
+          add(from.u + t * (to.u - from.u), from.v + t * (to.v - from.v));
+        }
+      });
+      while (ring.size() > 1 && ring.front().u == ring.back().u && ring.front().v == ring.back().v)
+        ring.pop_back();
+      if (ring.size() > 2) rings.push_back(std::move(ring));
+    }
+  }
+};
+
+/// Great circles of the sides of cells.
+class Sides {
+ public:
+  explicit Sides(const Faces& cells)
+      : cells_(cells), edges_(edges_of(cells)), normals_(edges_.nodes.size() / 2) {
+    for (std::size_t e = 0; e < normals_.size(); ++e) {
+      const Point &from = point(edges_.nodes[2 * e]), &to = point(edges_.nodes[2 * e + 1]);
+      Point normal = cross(from, minus(to, from));
+      // The rounding of a normal is 1e-16 over the distance of the points that it is computed from.
+      if (const auto [left, right] = std::pair(edges_.faces[2 * e], edges_.faces[2 * e + 1]);
+          left > 0 && right > 0 && left != right) {
+        const Point &a = cells.centres[static_cast<std::size_t>(left) - 1],
+                    &b = cells.centres[static_cast<std::size_t>(right) - 1], d = minus(a, b);
+        if (dot(d, d) > dot(normal, normal)) {
+          // Lengths are 1 only up to rounding, which moves what is as far from a as from b by 1e-16 over |d|.
+          const Point sum{a.x + b.x, a.y + b.y, a.z + b.z};
+          const double t = dot(sum, sum) > 1 ? dot(sum, d) / dot(sum, sum) : 0;
+          normal = {d.x - t * sum.x, d.y - t * sum.y, d.z - t * sum.z};
+        }
+      }
+      normals_[e] = normal;
+    }
+  }
+
+  /// Calls visit(line, k) for each side of the cell, from its corner[k].
+  template <class Visit>
+  void for_each_line(std::size_t cell, const Plane& plane, const Visit& visit) const {
+    for (std::size_t k = cells_.begin[cell]; k < cells_.begin[cell + 1]; ++k) {
+      const auto edge = static_cast<std::size_t>(edges_.of_faces[k]) - 1;
+      const Point& normal = normals_[edge];
+      if (normal == Point{0, 0, 0}) continue;
+      const bool is_left = cells_.corner[k] == edges_.nodes[2 * edge];
+      if (const auto line = plane.line(normal))
+        visit(is_left ? *line : line->reversed(), k);
+      else if ((dot(normal, plane.middle()) > 0) != is_left)
+        visit(Line{0, 0, -1}, k);
+    }
+  }
+
+ private:
+  const Point& point(std::int32_t corner) const {
+    return cells_.points[static_cast<std::size_t>(corner) - 1];
+  }
+
+  const Faces& cells_;
+  Edges edges_;
+  std::vector<Point> normals_;
+};
+
+/// Gives corners the bits of an earlier one within kSameCorner.
+class SameCorners {
+ public:
+  const MapCorner& of(const MapCorner& corner) {
+    // Heights above a plane along which few corners lie differ by no more than their places.
+    const double height = dot(corner.p, {0.36, 0.48, 0.8});
+    for (auto c = corners_.lower_bound(height - 2 * kSameCorner);
+         c != corners_.end() && c->first <= height + 2 * kSameCorner; ++c)
+      if (length(minus(c->second.p, corner.p)) < kSameCorner) return c->second;
+    return corners_.emplace(height, corner)->second;
+  }
+
+ private:
+  std::multimap<double, MapCorner> corners_;
+};
+
+class Clipper {
+ public:
+  explicit Clipper(const Faces& cells)
+      : cells_(cells), sides_(cells), angles_(cells.points, true), radius_(cells.size()) {
+    cells.for_each_corner([&](std::size_t f, std::size_t k) {
+      radius_[f] = std::max(radius_[f], angle_between(cells.centres[f], cells.point(k)));
+    });
+  }
+
+  /// The sum of the areas of the parts, and that of the sheet.
+  void clip(const Sheet& sheet, std::size_t feature) {
+    sheet_ = &sheet;
+    feature_ = feature;
+    const Box box = box_of(sheet.rings);
+    double reach = 0, area = 0, around = 0;
+    for (const Ring& ring : sheet.rings) {
+      area += area_on_sphere(ring);
+      around += length_on_plane(ring);
+      for (const Corner& c : ring) reach = std::max(reach, std::atan(std::hypot(c.u, c.v)));
+    }
+    std::vector<Candidate> candidates;
+    for (std::size_t f = 0; f < cells_.size(); ++f) {
+      if (angle_between(cells_.centres[f], sheet.plane.middle()) > reach + radius_[f] + 1e-9) continue;
+      const Rings part = cut_at_sides({box.ring()}, f);
+      if (part.empty()) continue;
+      candidates.push_back({f, box_of(part)});
+      for (const MapCorner& c : ring_of(cells_, f, angles_, cells_.corner)) same_.of(c);
+    }
+    area_ = around_ = 0;
+    clip(candidates.begin(), candidates.end(), sheet.rings);
+    // Cells that were cut before need not cover it.
+    const double more = area_ - area, rounding = 1e-9 * std::fabs(area) + 10 * kThin * (around + around_);
+    if (more > rounding || (cells_.nodes.empty() && more < -rounding)) fail();
+  }
+
+  /// The parts since the last call, in the order of their cells.
+  void move_to(Pieces& pieces) {
+    std::stable_sort(parts_.begin(), parts_.end(),
+                     [](const Part& a, const Part& b) { return a.cell < b.cell; });
+    for (const Part& part : parts_) pieces.add(part.ring, part.cell, part.area);
+    parts_.clear();
+  }
+
+ private:
+  struct Part {
+    std::size_t cell;
+    MapRing ring;
+    double area;
   };
-  const std::vector<double> of_parts = areas(parts);
-  const double hull = sum(triangle_faces(mesh).area);
-  if (!(std::fabs(sum(of_parts) - hull) <= kMost * hull) ||
-      std::any_of(of_parts.begin(), of_parts.end(), [&](double area) { return !(area >= -kMost * hull); }))
+  struct Candidate {
+    std::size_t cell;
+    Box box;  ///< of the cell
+  };
+  using Candidates = std::vector<Candidate>::iterator;
+
+  [[noreturn]] void fail() const {
     throw NoMesh(
-        "the hull of the nodes is so narrow that rounded corners cannot show the parts of cells in it: "
-        "leave out --clip-to-hull");
-}
+        "feature " + std::to_string(feature_) +
+        ": its rings touch, overlap or lie in each other, which a polygon does not allow: mend the polygon, "
+        "say by ogr2ogr -makevalid");
+  }
+
+  Rings cut_at_sides(Rings rings, std::size_t cell) const {
+    sides_.for_each_line(cell, sheet_->plane, [&](const Line& line, std::size_t k) {
+      if (!rings.empty()) rings = cut(rings, line, static_cast<std::ptrdiff_t>(k));
+    });
+    return rings;
+  }
+
+  /// Halves the cells, and for each half cuts the rings at its box, until one cell is left.
+  void clip(Candidates first, Candidates last, Rings rings) {
+    if (first == last || rings.empty()) return;
+    Box box;
+    for (auto c = first; c != last; ++c) box.add(c->box);
+    const Box of_rings = box_of(rings);
+    const double margin = 1e-12 + 1e-6 * std::max(box.east - box.west, box.north - box.south);
+    if (of_rings.west < box.west - margin) rings = cut(rings, {1, 0, margin - box.west});
+    if (of_rings.east > box.east + margin) rings = cut(rings, {-1, 0, box.east + margin});
+    if (of_rings.south < box.south - margin) rings = cut(rings, {0, 1, margin - box.south});
+    if (of_rings.north > box.north + margin) rings = cut(rings, {0, -1, box.north + margin});
+    if (last - first == 1) return add_parts(first->cell, cut_at_sides(std::move(rings), first->cell));
+    const bool by_u = box.east - box.west > box.north - box.south;
+    const auto middle = first + (last - first) / 2;
+    std::nth_element(first, middle, last, [&](const Candidate& a, const Candidate& b) {
+      return by_u ? a.box.west + a.box.east < b.box.west + b.box.east
+                  : a.box.south + a.box.north < b.box.south + b.box.north;
+    });
+    clip(first, middle, rings);
+    clip(middle, last, std::move(rings));
+  }
+
+  /// Adds the parts of a cell. If one has a hole, they are cut in two through the middle of the hole.
+  void add_parts(std::size_t cell, const Rings& rings, std::size_t most_holes = SIZE_MAX) {
+    Rings parts;
+    std::size_t holes = 0, hole = 0;
+    for (const Ring& ring : rings) {
+      const double area = area_on_plane(ring);
+      if (std::fabs(area) <= kThin / 2 * length_on_plane(ring)) continue;
+      if (area < 0) ++holes, hole = parts.size();
+      parts.push_back(ring);
+    }
+    if (holes > most_holes) fail();  // one that is cut remains: it is in no outline
+    if (holes == 0) {
+      for (const Ring& ring : parts) add(cell, ring);
+      return;
+    }
+    const Box box = box_of({parts[hole]});
+    const auto [u, v] = box.middle();
+    const Line line = box.east - box.west > box.north - box.south ? Line{1, 0, -u} : Line{0, 1, -v};
+    for (const Line& half : {line, line.reversed()}) add_parts(cell, cut(parts, half), holes - 1);
+  }
+
+  void add(std::size_t cell, const Ring& ring) {
+    const double area = area_on_sphere(ring);
+    area_ += area;
+    around_ += length_on_plane(ring);
+    MapRing corners;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Corner &c = ring[i], &before = ring[i > 0 ? i - 1 : ring.size() - 1];
+      const Point p = sheet_->plane.on_sphere(c);
+      MapCorner corner{p, longitude(p), latitude(p)};
+      if (c.place >= 0) {
+        const auto [lon, lat] = sheet_->places[static_cast<std::size_t>(c.place)];
+        corner = {point_sets::from_degrees(lon, lat), lon, lat};
+      } else if (before.side >= 0 && c.side >= 0 && before.side != c.side) {
+        // Two sides of the cell meet at its corner. If they are nearly one arc, they do not tell where.
+        corner = corner_at(cells_, cells_.corner[static_cast<std::size_t>(c.side)], angles_);
+      }
+      corners.push_back(same_.of(corner));
+    }
+    parts_.push_back({cell, std::move(corners), area});
+  }
+
+  const Faces& cells_;
+  Sides sides_;
+  LonLat angles_;
+  std::vector<double> radius_;  ///< of a cap around the node that holds the cell
+  SameCorners same_;
+  std::vector<Part> parts_;
+  const Sheet* sheet_ = nullptr;
+  std::size_t feature_ = 0;
+  double area_ = 0, around_ = 0;  ///< of the parts in the sheet
+};
 
 }  // namespace
 
-Faces clipped_to_hull(const Faces& cells, const Mesh& mesh) {
-  if (!mesh.has_boundary()) return cells;
-  const std::vector<std::int32_t> boundary = hull_of(mesh);
-  const LonLat of_nodes = angles_of(cells.centres, mesh.given, true), of_points(cells.points, true);
-  const auto corner_of = [&](std::int32_t node) -> MapCorner {
-    const auto i = static_cast<std::size_t>(node) - 1;
-    return {cells.centres[i], of_nodes.lon[i], of_nodes.lat[i]};
+void expect_no_crossing(const MapRegion& polygon) {
+  struct Side {
+    Place from, to;
+    std::size_t ring, number;
   };
   std::vector<Side> sides;
-  for (std::size_t k = 0; k < boundary.size(); ++k)
-    sides.push_back({corner_of(boundary[k]), corner_of(boundary[(k + 1) % boundary.size()])});
-
-  // The cut cells are connected: search them from the boundary nodes by their neighbours.
-  const pstripack::ListReader<std::int32_t> reader(mesh.lists());
-  std::vector<MapRing> rings(cells.size());
-  std::vector<bool> is_done(cells.size());
-  std::vector<std::int32_t> queue = boundary;
-  for (std::size_t k = 0; k < queue.size(); ++k) {
-    const auto f = static_cast<std::size_t>(queue[k]) - 1;
-    if (is_done[f]) continue;
-    is_done[f] = true;
-    Part part{ring_of(cells, f, of_points, cells.corner), {}};
-    part.along.assign(part.ring.size(), kInside);
-    bool is_cut = false;
-    for (std::size_t side = 0; side < sides.size(); ++side) is_cut = cut(part, sides, side) || is_cut;
-    // Where two sides of the hull are one arc, nothing was cut at the node between them.
-    for (std::size_t i = 0; k < sides.size() && i < part.ring.size(); ++i) {
-      const MapCorner &p = part.ring[i], &q = part.ring[(i + 1) % part.ring.size()], &node = sides[k].from;
-      if (p.p == node.p || q.p == node.p) break;
-      if (part.along[i] == kInside || !is_on(node, p, q, 1e-9)) continue;
-      part.ring.insert(part.ring.begin() + static_cast<std::ptrdiff_t>(i) + 1, node);
-      break;
+  for (std::size_t r = 0; r < polygon.rings.size(); ++r)
+    for (std::size_t i = 1; i < polygon.rings[r].size(); ++i)
+      sides.push_back({polygon.rings[r][i - 1], polygon.rings[r][i], r + 1, i});
+  const auto west = [](const Side& s) { return std::min(s.from.first, s.to.first); };
+  std::sort(sides.begin(), sides.end(), [&](const Side& s, const Side& t) { return west(s) < west(t); });
+  const auto left = [](const Side& s, const Place& c) {
+    return pstripack::left({s.from.first, s.from.second, 1}, {s.to.first, s.to.second, 1},
+                           {c.first, c.second, 1});
+  };
+  const auto is_wrong = [&](const Side& s, const Side& t) {
+    const int from = left(s, t.from), to = left(s, t.to);
+    if (from != 0 || to != 0) return from * to < 0 && left(t, s.from) * left(t, s.to) < 0;
+    const auto [s_low, s_high] = std::minmax(s.from, s.to);  // on one line
+    const auto [t_low, t_high] = std::minmax(t.from, t.to);
+    return std::max(s_low, t_low) < std::min(s_high, t_high);
+  };
+  const auto named = [&](const Side& s) {
+    std::ostringstream text;
+    text.precision(15);
+    text << "side " << s.number;
+    if (polygon.rings.size() > 1) text << " of ring " << s.ring;
+    text << " from " << s.from.first << ',' << s.from.second << " to " << s.to.first << ',' << s.to.second;
+    return text.str();
+  };
+  for (auto s = sides.begin(); s != sides.end(); ++s)
+    for (auto t = s + 1; t != sides.end() && west(*t) <= std::max(s->from.first, s->to.first); ++t) {
+      const auto [low, high] = std::minmax({s->from.second, s->to.second});
+      if (std::max(t->from.second, t->to.second) < low || std::min(t->from.second, t->to.second) > high ||
+          !is_wrong(*s, *t))
+        continue;
+      const bool in_order = std::tie(s->ring, s->number) < std::tie(t->ring, t->number);
+      throw NoMesh("feature " + std::to_string(polygon.feature) + ": " + named(in_order ? *s : *t) +
+                   " crosses or lies on " + named(in_order ? *t : *s) +
+                   ": mend the polygon, say by ogr2ogr -makevalid");
     }
-    rings[f] = std::move(part.ring);
-    if (!is_cut) continue;
-    reader.for_each_neighbour(queue[k], [&](std::int32_t neighbour) { queue.push_back(neighbour); });
-  }
-  Pieces pieces(cells);
-  for (std::size_t f = 0; f < cells.size(); ++f)
-    pieces.add(is_done[f] ? rings[f] : ring_of(cells, f, of_points, cells.corner), f);
-  Faces parts = pieces.take();
-  expect_area_of_hull(parts, mesh);
-  return parts;
 }
 
-Faces clipped_to_region(const Faces& cells, const Region& region) {
-  const double width = region.east - region.west;
-  const LonLat angles = angles_of(cells.points, cells.given_points, true);
-  const std::vector<std::int32_t> corner = merged_corners(cells);
+Faces clipped_to_polygons(const Faces& cells, const std::vector<MapRegion>& polygons) {
+  Clipper clipper(cells);
   Pieces pieces(cells);
-  if (width < kLeastRegion || region.north - region.south < kLeastRegion) return pieces.take();
-  for (std::size_t f = 0; f < cells.size(); ++f) {
-    MapRing polygon = ring_of(cells, f, angles, corner);
-    expect_no_half_turn(polygon, cells, f);
-    move_to_poles(polygon);
-    MapRing ring = unrolled(polygon, region.west);
-    const bool around_pole = std::any_of(ring.begin(), ring.end(), [](const MapCorner& c) { return c.seam; });
-    const bool hole = around_pole && (ring.back().lat > 0 ? region.north < 90 : region.south > -90);
-    // A region of 360 degrees has no western or eastern edge. Cells around a pole are opened at one of their
-    // corners, which adds no corner. If the region leaves out the pole, the cell has a hole and is cut into
-    // two parts, at this corner and at another one opposite.
-    const double opened_at = polygon[0].lon;
-    if (width == 360 && around_pole) ring = unrolled(polygon, opened_at);
-    std::vector<MapRing> parts;
-    if (width < 360)
-      parts = between_meridians(ring, region.west, width);
-    else if (!hole)
-      parts = {ring};
-    else {
-      double opposite = 0;
-      double and_at = 0;
-      for (const MapCorner& c : polygon) {
-        const double from_first = c.lon - opened_at - 360 * std::floor((c.lon - opened_at) / 360);
-        if (std::fabs(from_first - 180) < std::fabs(opposite - 180)) opposite = from_first, and_at = c.lon;
-      }
-      parts = between_meridians(ring, opened_at, opposite);
-      for (MapRing& part : between_meridians(ring, opened_at + opposite, 360 - opposite))
-        parts.push_back(std::move(part));
-      for (MapRing& part : parts)
-        for (const double lon : {opened_at, and_at}) move_to_meridian(part, lon);
-    }
-    for (const MapRing& part : parts)
-      for (const MapRing& piece : between_parallels(part, region.south, region.north)) {
-        MapRing arcs = with_arcs(piece);
-        if (width == 360 && !hole)
-          arcs.erase(std::remove_if(arcs.begin(), arcs.end(), [](const MapCorner& c) { return c.seam; }),
-                     arcs.end());
-        pieces.add(arcs, f);
-      }
+  Column number = whole_numbers("polygon", "number of the feature that the cell was cut at", {});
+  Column name{"polygon_name", "its property name or id"};
+  bool has_names = false;
+  for (const MapRegion& polygon : polygons) {
+    expect_no_crossing(polygon);
+    for (const Rings& piece : pieces_on_map(oriented(polygon))) clipper.clip(Sheet(piece), polygon.feature);
+    clipper.move_to(pieces);
+    number.numbers.resize(pieces.size(), static_cast<double>(polygon.feature));
+    name.texts.resize(pieces.size(), polygon.name);
+    has_names = has_names || !polygon.name.empty();
   }
-  return pieces.take();
+  Faces parts = pieces.take();
+  if (polygons.front().feature > 0) parts.columns_of_parts.push_back(std::move(number));
+  if (has_names) parts.columns_of_parts.push_back(std::move(name));
+  return parts;
 }
 
 }  // namespace files

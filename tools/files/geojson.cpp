@@ -38,6 +38,15 @@ void check_reference_system(const Json& root, const std::string& file) {
                     excerpt(name)));
 }
 
+std::string name_of(const Json& feature, const Json& properties) {
+  const auto text = [](const Json& value) {
+    return value.is_string() ? value.get<std::string>() : value.is_number() ? value.dump() : "";
+  };
+  for (const char* const name : {"name", "Name", "NAME", "id", "Id", "ID"})
+    if (properties.contains(name) && !text(properties[name]).empty()) return text(properties[name]);
+  return feature.contains("id") ? text(feature["id"]) : "";
+}
+
 }  // namespace
 
 std::string text_of(const Json& object, const char* key) {
@@ -89,38 +98,49 @@ Json read_features(const std::string& text, const std::string& file, const char*
   return root;
 }
 
-std::vector<std::vector<std::pair<double, double>>> read_lines(const std::string& file) {
-  std::vector<std::vector<std::pair<double, double>>> lines;
-  const std::initializer_list<const char*> types{"LineString", "Polygon", "MultiLineString", "MultiPolygon"};
-  read_features(contents_of(file), file, "lines", types, [&](const Json& feature, std::size_t k) {
-    const auto require = [&](bool condition, const char* what) {
-      if (!condition) throw std::runtime_error(fmt::format("{}: feature {}: expected {}", file, k, what));
+std::vector<Shape> read_shapes(const std::string& file, const char* what,
+                               std::initializer_list<const char*> types) {
+  std::vector<Shape> shapes;
+  read_features(contents_of(file), file, what, types, [&](const Json& feature, std::size_t number) {
+    const auto require = [&](bool condition, const std::string& expected) {
+      if (!condition) throw std::runtime_error(fmt::format("{}: feature {}: {}", file, number, expected));
     };
     const auto geometry = feature.find("geometry");
-    require(geometry != feature.end() && geometry->is_object() &&
-                std::find(types.begin(), types.end(), text_of(*geometry, "type")) != types.end() &&
-                geometry->contains("coordinates"),
-            "lines or polygons");
-    const auto add = [&](const auto& add_those_in, const Json& list) -> void {
+    const std::string type =
+        geometry != feature.end() && geometry->is_object() ? text_of(*geometry, "type") : "";
+    require(std::find(types.begin(), types.end(), type) != types.end(),
+            fmt::format("'{}' is not a {}", excerpt(type), fmt::join(types, " or ")));
+    const auto coordinates = geometry->find("coordinates");
+    require(coordinates != geometry->end(), "its geometry has no coordinates");
+    Shape& shape = shapes.emplace_back();
+    shape.number = number;
+    const auto add = [&](const auto& add_those_in, const Json& list, std::vector<Line>& lines) -> void {
       require(list.is_array() && !list.empty() && list[0].is_array() && !list[0].empty(),
-              "lists of [longitude, latitude]");
+              "expected lists of [longitude, latitude]");
       if (!list[0][0].is_number()) {
-        for (const Json& part : list) add_those_in(add_those_in, part);
+        for (const Json& part : list) add_those_in(add_those_in, part, lines);
         return;
       }
-      auto& line = lines.emplace_back();
+      Line& line = lines.emplace_back();
       for (const Json& place : list) {
         require(place.is_array() && place.size() >= 2 && place[0].is_number() && place[1].is_number(),
-                "lists of [longitude, latitude]");
-        line.emplace_back(place[0].get<double>(), place[1].get<double>());
-        require(std::fabs(line.back().first) <= 540 && std::fabs(line.back().second) <= 90,
-                "longitudes within -540 to 540, latitudes within -90 to 90");
+                "expected lists of [longitude, latitude]");
+        const auto [lon, lat] = line.emplace_back(place[0].get<double>(), place[1].get<double>());
+        require(std::fabs(lat) <= 90, fmt::format("latitude {:g} is beyond the pole", lat));
+        require(std::fabs(lon) <= 540, fmt::format("longitude {:g} is not within -540 to 540", lon));
       }
     };
-    add(add, (*geometry)["coordinates"]);
+    if (type.rfind("Multi", 0) == 0 && coordinates->is_array())
+      for (const Json& part : *coordinates) add(add, part, shape.parts.emplace_back());
+    else
+      add(add, *coordinates, shape.parts.emplace_back());
+    require(!shape.parts.empty(), fmt::format("a {} without parts", type));
+    const auto properties = feature.find("properties");
+    if (properties != feature.end() && properties->is_object()) shape.properties = *properties;
+    shape.name = name_of(feature, shape.properties);
   });
-  if (lines.empty()) throw std::runtime_error(file + ": no lines: there are no features");
-  return lines;
+  if (shapes.empty()) throw std::runtime_error(fmt::format("{}: no {}: there are no features", file, what));
+  return shapes;
 }
 
 }  // namespace files

@@ -23,8 +23,19 @@ Json read_features(const std::string& text, const std::string& file, const char*
                    std::initializer_list<const char*> geometries,
                    const std::function<void(const Json&, std::size_t)>& add);
 
-/// The lines of a file, and the outlines and holes of its polygons: longitudes and latitudes in degrees.
-/// Throws std::runtime_error: one line.
-std::vector<std::vector<std::pair<double, double>>> read_lines(const std::string& file);
+using Line = std::vector<std::pair<double, double>>;  ///< longitudes and latitudes, degrees
+
+/// A feature with lines or polygons.
+struct Shape {
+  std::size_t number = 0;  ///< from 1
+  std::string name = {};   ///< its property `name` or `id`, or its member `id`; empty: it has none
+  Json properties = {};
+  /// The lines, each alone, or of each polygon the outline, then its holes.
+  std::vector<std::vector<Line>> parts = {};
+};
+/// The features of a file, which have one of these types. `what`: "polygons". Throws std::runtime_error: one
+/// line with file, feature, and what is wrong.
+std::vector<Shape> read_shapes(const std::string& file, const char* what,
+                               std::initializer_list<const char*> types);
 
 }  // namespace files

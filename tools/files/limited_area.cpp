@@ -35,15 +35,6 @@ std::vector<std::vector<Point>> LimitedArea::boundary() const {
   constexpr double kStep = 0.1;  // degrees. An arc leaves a line on the map by at most step^2 / 16.
   std::vector<std::vector<Point>> lines;
   for (const MapRegion& polygon : polygons) {
-    for (const std::vector<Point>& corners : polygon.corners) {
-      std::vector<Corner> on_map;
-      for (std::size_t i = 0; i < corners.size(); ++i)
-        add_arc(corners[i], corners[(i + 1) % corners.size()], on_map);
-      std::vector<Point>& line = lines.emplace_back();
-      for (const auto& [lon, lat] : on_map) line.push_back(point_sets::from_degrees(lon, lat));
-      line.push_back(line.front());
-    }
-    if (!polygon.corners.empty()) continue;
     for (const auto& ring : polygon.rings) {
       std::vector<Point>& line = lines.emplace_back();
       for (std::size_t i = 1; i < ring.size(); ++i) {
@@ -70,54 +61,39 @@ std::vector<Region> LimitedArea::boxes() const {
   return boxes;
 }
 
-namespace {
-
-LimitedArea area_of(std::string name, std::vector<MapRegion> polygons, bool great_circles) {
-  LimitedArea area{std::move(name), std::move(polygons), great_circles};
-  try {
-    for (MapRegion& polygon : area.polygons)
-      if (great_circles && polygon.corners.empty()) follow_great_circles(polygon);
-  } catch (const std::runtime_error& e) {
-    throw std::runtime_error(area.name + ": " + e.what());
-  }
+LimitedArea box_area(std::string name, const Region& box, bool great_circles) {
+  LimitedArea area{std::move(name), {region_of_box(box)}, great_circles};
+  if (great_circles) follow_great_circles(area.name, area.polygons[0]);
   return area;
 }
 
-}  // namespace
-
-LimitedArea box_area(std::string name, const Region& box, bool great_circles) {
-  const Corner first{box.west, box.south}, second{box.east, box.south}, third{box.east, box.north},
-      fourth{box.west, box.north};
-  return area_of(std::move(name), {{1, "", {{first, second, third, fourth, first}}}}, great_circles);
-}
-
 LimitedArea circle_area(std::string name, double lon, double lat, double radius, bool great_circles) {
-  return area_of(std::move(name), {ellipse_region(lon, lat, radius, radius, 0, great_circles ? 100 : 3600)},
-                 great_circles);
+  return {std::move(name),
+          {ellipse_region(lon, lat, radius, radius, 0, great_circles ? 100 : 3600)},
+          great_circles};
 }
 
-LimitedArea pts_area(const std::string& file, double radius) {
-  return area_of(file, read_pts(file, radius), true);
-}
-
-LimitedArea polygon_area(const std::string& file, bool are_degrees, bool great_circles) {
-  std::vector<MapRegion> polygons = read_polygons(file);
+LimitedArea file_area(const std::string& file, double radius, bool are_degrees, bool great_circles) {
+  LimitedArea area{file, read_polygons(file, radius), great_circles};
   bool may_be_radians = !are_degrees;
-  for (const MapRegion& polygon : polygons) {
+  for (MapRegion& polygon : area.polygons) {
     try {
       expect_no_crossing(polygon);
     } catch (const NoMesh& e) {
       throw std::runtime_error(file + ": " + e.what());
     }
+    may_be_radians = may_be_radians && polygon.corners.empty();
     for (const auto& [lon, lat] : polygon.rings[0])
       may_be_radians = may_be_radians && std::fabs(lon) <= 2 * kPi && std::fabs(lat) <= kPi / 2;
+    if (great_circles && polygon.corners.empty()) follow_great_circles(file, polygon);
+    area.has_chains = !polygon.corners.empty();
   }
   if (may_be_radians)
     throw std::runtime_error(fmt::format(
         "{}: all longitudes are within 2 pi and all latitudes within pi/2: GeoJSON is in degrees; "
         "if these are degrees, say --units degrees",
         file));
-  return area_of(file, std::move(polygons), great_circles);
+  return area;
 }
 
 // ---- layers -----------------------------------------------------------------------------------------------

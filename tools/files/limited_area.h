@@ -35,7 +35,8 @@ struct LimitedArea {
   /// Pairs of increasing longitudes between which the parallel is inside: degrees, of any turn.
   std::vector<std::pair<double, double>> inside(double lat) const;
   bool contains(const Point& p) const;
-  /// The closed lines around all polygons: unit vectors, whose arcs are within 2e-7 rad of the line.
+  /// The closed lines around all polygons: unit vectors, whose arcs are within 2e-7 rad of the line. Some
+  /// lead to a pole, or around a whole map, through the area.
   std::vector<std::vector<Point>> boundary() const;
   /// A box of longitudes and latitudes around each polygon.
   std::vector<Region> boxes() const;
@@ -45,11 +46,10 @@ struct LimitedArea {
 LimitedArea box_area(std::string name, const Region& box, bool great_circles = false);
 /// `radius` in radians.
 LimitedArea circle_area(std::string name, double lon, double lat, double radius, bool great_circles = false);
-/// The polygons of a GeoJSON file. Throws std::runtime_error if one crosses itself, or if all angles may be
-/// radians, which `are_degrees` denies: one line with file, feature, place and remedy.
-LimitedArea polygon_area(const std::string& file, bool are_degrees, bool great_circles);
-/// The region of a file of MPAS-Limited-Area: read_pts().
-LimitedArea pts_area(const std::string& file, double radius);
+/// Those of read_polygons(); of NAME.pts with great circles. Throws std::runtime_error if one crosses itself,
+/// or if all angles of GeoJSON may be radians, which `are_degrees` denies: one line with file, feature, place
+/// and remedy.
+LimitedArea file_area(const std::string& file, double radius, bool are_degrees, bool great_circles);
 
 /// Sets mesh.layers: for each node 0 to 7 as above, else kLeftOut. The triangles should be those of
 /// Delaunay. Throws std::runtime_error if no node lies in the area, if the cells of the area are not

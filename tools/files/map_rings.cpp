@@ -15,12 +15,11 @@ namespace files {
 namespace {
 
 constexpr Point kNorthPole{0, 0, 1};
-/// Largest distance of straight lines from arcs, and of arcs from parallels: 0.001 and 0.0001 degrees, in
-/// radians.
-constexpr double kStraight = 0.001 / kRadian, kBent = 0.0001 / kRadian;
+/// Largest distance of straight lines from arcs: 0.001 degrees, in radians.
+constexpr double kStraight = 0.001 / kRadian;
 /// Rounding of corners, in radians: what is closer to a pole is at the pole, what is narrower is a line.
 constexpr double kRounding = 1e-15;
-/// Corners closer than this to a meridian or parallel, in degrees, are on it.
+/// Corners closer than this to a meridian, in degrees, are on it.
 constexpr double kThin = kSamePlace * kRadian;
 
 double distance(const Point& a, const Point& b) { return length(minus(a, b)); }
@@ -40,7 +39,7 @@ bool leads_to_pole(const Point& a, const Point& b) {
   return is_at_pole(a) || is_at_pole(b) || leads_through_pole(a, b);
 }
 
-/// An arc has the same bits in the faces on both sides if its ends are exchanged where this is true.
+/// A line has the same bits in the faces on both sides if its ends are exchanged where this is true.
 bool is_backward(const Point& from, const Point& to) {
   return std::tie(to.x, to.y, to.z) < std::tie(from.x, from.y, from.z);
 }
@@ -59,56 +58,16 @@ int turn_after(const MapCorner& from, const MapCorner& to) {
   return step < 0 ? turn + (east > 0) : turn - (east < 0);
 }
 
-/// p + t (q-p), with the same bits if p and q are exchanged: the cells on both sides of an arc get the same
-/// corner.
-template <class Part>
-Point on_chord(const Point& p, const Point& q, const Part& part) {
-  const bool swap = is_backward(p, q);
-  const Point &a = swap ? q : p, &b = swap ? p : q;
-  const double t = part(a, b);
-  return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z)};
-}
-
 /// Where the line from p to q meets the meridian lon + 360 turn; p or q if it is there.
 MapCorner at_meridian(const MapCorner& p, const MapCorner& q, double lon, int turn) {
   const double x = lon + 360.0 * turn;
   if (p.x() == x || q.x() == x) return p.x() == x ? p : q;
-  double lat = p.lat;
-  if (p.straight) {
-    // The same bits if p and q are exchanged, and for all turns.
-    const auto [a, b] = is_backward(p.p, q.p) ? std::tie(q, p) : std::tie(p, q);
-    const double to_line = 360.0 * (turn - a.turn) + lon - a.lon,
-                 to_b = 360.0 * (b.turn - a.turn) + b.lon - a.lon;
-    lat = a.lat + std::clamp(to_line / to_b, 0.0, 1.0) * (b.lat - a.lat);
-  } else {
-    const Point east{-point_sets::sin_degrees(lon), point_sets::cos_degrees(lon), 0};
-    lat = latitude(on_chord(p.p, q.p, [&](const Point& a, const Point& b) {
-      const double at_a = dot(east, a), at_b = dot(east, b);
-      return at_a == at_b ? 0.5 : std::clamp(at_a / (at_a - at_b), 0.0, 1.0);
-    }));
-  }
-  return {point_sets::from_degrees(lon, lat), lon, lat, turn, p.straight, p.seam};
-}
-
-/// Where the line from p to q, which must meet the parallel once, meets it; p or q if it is there.
-MapCorner at_parallel(const MapCorner& p, const MapCorner& q, double lat) {
-  if (p.lat == lat || q.lat == lat) return p.lat == lat ? p : q;
-  double lon = p.lon;
-  if (!p.straight)
-    lon = longitude(on_chord(p.p, q.p, [&](const Point& a, const Point& b) {
-      const auto height = [&](double t) {
-        return latitude({a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z)}) - lat;
-      };
-      double from = 0, to = 1;
-      const bool up = height(1) > height(0);
-      for (int step = 0; step < 60; ++step) {
-        const double middle = (from + to) / 2;
-        ((height(middle) < 0) == up ? from : to) = middle;
-      }
-      return (from + to) / 2;
-    }));
-  const int turn = p.straight ? p.turn : turn_near(lon, (p.x() + q.x()) / 2);
-  return {point_sets::from_degrees(lon, lat), lon, lat, turn, p.straight, p.seam};
+  // The same bits if p and q are exchanged, and for all turns.
+  const auto [a, b] = is_backward(p.p, q.p) ? std::tie(q, p) : std::tie(p, q);
+  const double to_line = 360.0 * (turn - a.turn) + lon - a.lon,
+               to_b = 360.0 * (b.turn - a.turn) + b.lon - a.lon,
+               lat = a.lat + std::clamp(to_line / to_b, 0.0, 1.0) * (b.lat - a.lat);
+  return {point_sets::from_degrees(lon, lat), lon, lat, turn};
 }
 
 /// The ring without corners that equal the next corner.
@@ -121,37 +80,20 @@ MapRing without_repeats(const MapRing& ring) {
   return kept;
 }
 
-void move_to_parallel(MapRing& ring, double lat) {
+/// Moves corners to the meridians lon + 360 k if they are as close as rounding. What is cut off at a meridian
+/// is then no sliver that rounding makes. Their vectors stay: they tell that corners are the same.
+void move_to_meridian(MapRing& ring, double lon) {
   for (MapCorner& c : ring)
-    if (std::fabs(c.lat - lat) < kThin) c.lat = lat;
+    if (std::fabs(c.lon - lon - 360 * turn_near(lon, c.lon)) < kThin) {
+      c.turn = turn_near(lon, c.x());
+      c.lon = lon;
+    }
 }
 
-struct Box {
-  double west, east, south, north;
-  bool is_line() const { return east == west || north == south; }
-};
-Box box_of(const MapRing& ring) {
-  const auto [w, e] = std::minmax_element(ring.begin(), ring.end(),
-                                          [](const auto& a, const auto& b) { return a.x() < b.x(); });
-  const auto [s, n] = std::minmax_element(ring.begin(), ring.end(),
-                                          [](const auto& a, const auto& b) { return a.lat < b.lat; });
-  return {w->x(), e->x(), s->lat, n->lat};
-}
-
-/// Adds the parts of `ring` on the inner side of a straight line: cut_rings().
-template <class Inside, class Cross, class Along>
-void cut(const MapRing& ring, const Inside& inside, const Cross& cross, const Along& along,
-         std::vector<MapRing>& parts) {
-  const auto crossing = [&](const MapCorner& p, const MapCorner& q, bool leaves) {
-    MapCorner c = cross(p, q);
-    c.straight = c.straight || leaves;
-    c.seam = c.seam && !leaves;
-    return c;
-  };
-  for (const MapRing& part : cut_rings(std::vector<MapRing>{ring}, inside, crossing, along)) {
-    MapRing kept = without_repeats(part);
-    if (kept.size() >= 3 && !box_of(kept).is_line()) parts.push_back(std::move(kept));
-  }
+/// Moves corners closer than kSamePlace to a pole to the pole, where longitudes are rounding.
+void move_to_poles(MapRing& ring) {
+  for (MapCorner& c : ring)
+    if (c.p.x * c.p.x + c.p.y * c.p.y < kSamePlace * kSamePlace) c = pole(c.p.z);
 }
 
 /// Corners that differ, with poles where arcs lead through them.
@@ -162,10 +104,8 @@ MapRing with_poles(const MapRing& ring) {
   };
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Point &a = ring[i].p, &b = ring[(i + 1) % ring.size()].p;
-    MapCorner c{a, ring[i].lon, ring[i].lat};
-    c.straight = ring[i].straight;
-    add(is_at_pole(a) ? pole(a.z) : c);
-    if (!c.straight && leads_through_pole(a, b)) add(pole(a.z + b.z));
+    add(is_at_pole(a) ? pole(a.z) : MapCorner{a, ring[i].lon, ring[i].lat});
+    if (leads_through_pole(a, b)) add(pole(a.z + b.z));
   }
   while (corners.size() > 1 && corners.front().p == corners.back().p) corners.pop_back();
   return corners;
@@ -194,7 +134,6 @@ MapRing closed_at_pole(const MapRing& ring, double west, int around) {
   MapRing closed{at_meridian(corner(i), corner(i + 1), west, turn)};
   for (std::size_t k = i + 1; k <= i + n; ++k) closed.push_back(corner(k));
   MapCorner end = closed.front(), at_pole = pole(around);
-  end.straight = end.seam = at_pole.straight = at_pole.seam = true;
   at_pole.lon = west;
   end.turn += around;
   at_pole.turn = turn + around;
@@ -220,31 +159,7 @@ double width_of(const MapRing& ring) {
   return std::fabs(area) / length;
 }
 
-/// Finds the point of an arc with the largest or smallest latitude. False if that is an end of the arc.
-bool has_apex(const Point& a, const Point& b, Point& apex) {
-  const double cosine = dot(a, b);
-  const double up_at_a = b.z - cosine * a.z, up_at_b = a.z - cosine * b.z;  // towards the other end
-  if (!((up_at_a > 0 && up_at_b > 0) || (up_at_a < 0 && up_at_b < 0))) return false;
-  const Point n = is_backward(a, b) ? cross(b, a) : cross(a, b);
-  const double sign = up_at_a > 0 ? 1 : -1;
-  apex = unit({-sign * n.x * n.z, -sign * n.y * n.z, sign * (n.x * n.x + n.y * n.y)});
-  return true;
-}
-
 }  // namespace
-
-void move_to_meridian(MapRing& ring, double lon) {
-  for (MapCorner& c : ring)
-    if (std::fabs(c.lon - lon - 360 * turn_near(lon, c.lon)) < kThin) {
-      c.turn = turn_near(lon, c.x());
-      c.lon = lon;
-    }
-}
-
-void move_to_poles(MapRing& ring) {
-  for (MapCorner& c : ring)
-    if (c.p.x * c.p.x + c.p.y * c.p.y < kSamePlace * kSamePlace) c = pole(c.p.z);
-}
 
 double wrapped(double lon) { return lon >= -180 && lon <= 180 ? lon : lon - 360 * std::round(lon / 360); }
 
@@ -280,15 +195,6 @@ MapRing ring_of(const Faces& faces, std::size_t face, const LonLat& angles,
   return ring;
 }
 
-void expect_no_half_turn(const MapRing& ring, const Faces& faces, std::size_t face) {
-  for (std::size_t i = 0; i < ring.size(); ++i)
-    if (dot(ring[i].p, ring[(i + 1) % ring.size()].p) < -1 + 1e-12)
-      throw NoMesh(faces.centres.empty() ? "two corners of triangle " + std::to_string(face + 1) +
-                                               " are opposite each other: remove one"
-                                         : "the cell of node " + std::to_string(faces.node_of(face) + 1) +
-                                               " reaches halfway around the sphere: add nodes elsewhere");
-}
-
 MapRing unrolled(const MapRing& polygon, double west) {
   MapRing corners = with_poles(polygon);
   move_to_meridian(corners, west);
@@ -303,7 +209,6 @@ MapRing unrolled(const MapRing& polygon, double west) {
     MapCorner& from = ring.back();
     const double x = from.x();
     if (is_pole(to)) {
-      from.straight = to.straight = true;
       to.lon = from.lon;
       to.turn = from.turn;
     } else if (is_pole(from)) {
@@ -333,83 +238,42 @@ MapRing unrolled(const MapRing& polygon, double west) {
   return closed_at_pole(ring, west, around);
 }
 
-std::vector<MapRing> between_meridians(MapRing corners, double west, double width) {
+std::vector<MapRing> cut_at_dateline(MapRing ring) {
   std::vector<MapRing> parts;
-  if (corners.empty()) return parts;
-  move_to_meridian(corners, west + width);
-  move_to_meridian(corners, west);
-  // Corners where sides cross `west` first, as unrolled() adds one where it opens a ring: a side that is cut
-  // twice has the same bits in all faces.
-  MapRing ring;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const MapCorner &p = corners[i], &q = corners[(i + 1) % corners.size()];
-    ring.push_back(p);
-    const int turn = static_cast<int>(std::ceil((std::max(p.x(), q.x()) - west) / 360)) - 1;
-    if (west + 360.0 * turn > std::min(p.x(), q.x())) ring.push_back(at_meridian(p, q, west, turn));
-  }
-  const Box box = box_of(ring);
-  for (int turn = static_cast<int>(std::floor((box.west - west - width) / 360));
-       west + 360.0 * turn < box.east; ++turn) {
-    const double left = west + 360.0 * turn, right = west + width + 360.0 * turn;
-    std::vector<MapRing> halves, pieces;
-    if (box.west >= left && box.east <= right) {
-      pieces.push_back(ring);
-    } else if (std::min(box.east, right) > std::max(box.west, left)) {
-      cut(
-          ring, [&](const MapCorner& c) { return c.x() >= left; },
-          [&](const MapCorner& p, const MapCorner& q) { return at_meridian(p, q, west, turn); },
-          [](const MapCorner& c) { return -c.lat; }, halves);
-      for (const MapRing& half : halves)
-        cut(
-            half, [&](const MapCorner& c) { return c.x() <= right; },
-            [&](const MapCorner& p, const MapCorner& q) { return at_meridian(p, q, west + width, turn); },
-            [](const MapCorner& c) { return c.lat; }, pieces);
+  if (ring.empty()) return parts;
+  move_to_meridian(ring, -180);
+  const auto [low, high] = std::minmax_element(ring.begin(), ring.end(),
+                                               [](const auto& a, const auto& b) { return a.x() < b.x(); });
+  const double west = low->x(), east = high->x();
+  for (int turn = static_cast<int>(std::floor((west + 180) / 360)); 360.0 * turn - 180 < east; ++turn) {
+    std::vector<MapRing> pieces{ring};
+    for (const int side : {-1, 1}) {
+      const int at = side < 0 ? turn : turn + 1;
+      pieces = cut_rings(
+          pieces, [&](const MapCorner& c) { return side * (c.x() - (360.0 * at - 180)) <= 0; },
+          [&](const MapCorner& p, const MapCorner& q, bool) { return at_meridian(p, q, -180, at); },
+          [&](const MapCorner& c) { return side * c.lat; });
     }
     for (MapRing& piece : pieces) {
       for (MapCorner& c : piece) c.turn -= turn;
-      parts.push_back(std::move(piece));
+      parts.push_back(without_repeats(piece));
     }
   }
-  return parts;
-}
-
-std::vector<MapRing> between_parallels(MapRing ring, double south, double north) {
-  move_to_parallel(ring, north);
-  move_to_parallel(ring, south);
-  MapRing single;  // each side that crosses a parallel crosses it once
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const MapCorner &p = ring[i], &q = ring[(i + 1) % ring.size()];
-    single.push_back(p);
-    Point apex;
-    if (p.straight || !has_apex(p.p, q.p, apex)) continue;
-    // Cut an arc that touches a parallel there: its polygon falls into two parts that touch.
-    const bool above = north < 90 && latitude(apex) > north - kThin,
-               below = south > -90 && latitude(apex) < south + kThin;
-    const auto crosses = [](bool at_apex, bool at_p, bool at_q) {
-      return at_apex != at_p && at_apex != at_q;
-    };
-    if (!crosses(above, p.lat > north, q.lat > north) && !crosses(below, p.lat < south, q.lat < south))
-      continue;
-    const double lon = longitude(apex);
-    const double lat = above   ? std::max(latitude(apex), north + kThin)
-                       : below ? std::min(latitude(apex), south - kThin)
-                               : latitude(apex);
-    single.push_back({apex, lon, lat, turn_near(lon, (p.x() + q.x()) / 2)});
-  }
-  std::vector<MapRing> lower, parts;
-  cut(
-      single, [&](const MapCorner& c) { return c.lat <= north; },
-      [&](const MapCorner& p, const MapCorner& q) { return at_parallel(p, q, north); },
-      [](const MapCorner& c) { return -c.x(); }, lower);
-  for (const MapRing& part : lower)
-    cut(
-        part, [&](const MapCorner& c) { return c.lat >= south; },
-        [&](const MapCorner& p, const MapCorner& q) { return at_parallel(p, q, south); },
-        [](const MapCorner& c) { return c.x(); }, parts);
   return parts;
 }
 
 namespace {
+
+/// Throws NoMesh, naming the cell or triangle, if a side is a half turn: its ends do not determine its great
+/// circle.
+void expect_no_half_turn(const MapRing& ring, const Faces& faces, std::size_t face) {
+  for (std::size_t i = 0; i < ring.size(); ++i)
+    if (dot(ring[i].p, ring[(i + 1) % ring.size()].p) < -1 + 1e-12)
+      throw NoMesh(faces.centres.empty() ? "two corners of triangle " + std::to_string(face + 1) +
+                                               " are opposite each other: remove one"
+                                         : "the cell of node " + std::to_string(faces.node_of(face) + 1) +
+                                               " reaches halfway around the sphere: add nodes elsewhere");
+}
 
 /// Twice the area of the ring on the map; positive if counterclockwise.
 double area_on_map(const MapRing& ring) {
@@ -455,7 +319,7 @@ void add_corners(const MapCorner& a, const MapCorner& b, int depth, MapRing& rin
   if (depth == kDeepest || is_close(a, b)) return;
   const Point middle = unit({a.p.x + b.p.x, a.p.y + b.p.y, a.p.z + b.p.z});
   const double lon = longitude(middle);
-  const MapCorner m{middle, lon, latitude(middle), turn_near(lon, (a.x() + b.x()) / 2), true};
+  const MapCorner m{middle, lon, latitude(middle), turn_near(lon, (a.x() + b.x()) / 2)};
   add_corners(a, m, depth + 1, ring);
   ring.push_back(m);
   add_corners(m, b, depth + 1, ring);
@@ -488,13 +352,12 @@ std::vector<MapRing> MapLines::polygons(std::size_t face) const {
     ring.push_back(corners[k]);
     const Point &a = corners[k].p, &b = corners[(k + 1) % corners.size()].p;
     if (a == b || leads_to_pole(a, b)) continue;
-    ring.back().straight = true;
     const std::size_t slot = faces_.begin[face] + k;
     const MapRing between = corners_between(corner_[slot], corner_[faces_.after(face, slot)]);
     ring.insert(ring.end(), between.begin(), between.end());
   }
   std::vector<MapRing> polygons;
-  for (MapRing& part : between_meridians(unrolled(ring, -180), -180, 360))
+  for (MapRing& part : cut_at_dateline(unrolled(ring, -180)))
     if (area_on_map(part) > 0) polygons.push_back(std::move(part));
   return polygons;
 }
@@ -539,31 +402,6 @@ std::vector<MapRing> MapLines::lines(std::int32_t from, std::int32_t to) const {
   parts.erase(std::remove_if(parts.begin(), parts.end(), [](const MapRing& part) { return part.size() < 2; }),
               parts.end());
   return parts;
-}
-
-MapRing with_arcs(const MapRing& ring) {
-  MapRing all;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const MapCorner &p = ring[i], &q = ring[(i + 1) % ring.size()];
-    all.push_back(p);
-    if (!p.straight || p.seam || (is_pole(p) && is_pole(q))) continue;
-    const double width = q.x() - p.x(), height = q.lat - p.lat;
-    // The middle of an arc of w radians between equal latitudes is w^2 sin(2 lat)/16 from the parallel.
-    const double bend = std::fabs(point_sets::sin_degrees(2 * p.lat));
-    const double step = std::min(90.0, kRadian * 4 * std::sqrt(kBent / std::max(bend, 1e-9)));
-    const double pieces = std::ceil(std::max(std::fabs(width) / step, std::fabs(height) / 90));
-    // On both sides of a meridian the same bits.
-    const bool swap = q.lat < p.lat;
-    const MapCorner& from = swap ? q : p;
-    const double sign = swap ? -1 : 1;
-    for (double k = 1; k < pieces; ++k) {
-      const double part = sign * (swap ? pieces - k : k) / pieces;
-      const double x = from.x() + width * part, lon = width == 0 ? from.lon : wrapped(x);
-      const double lat = from.lat + height * part;
-      all.push_back({point_sets::from_degrees(lon, lat), lon, lat, turn_near(lon, x)});
-    }
-  }
-  return all;
 }
 
 }  // namespace files

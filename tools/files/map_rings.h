@@ -18,9 +18,6 @@ struct MapCorner {
   Point p;
   double lon, lat;  ///< of p
   int turn = 0;     ///< the corner's place on the map is lon + 360 turn
-  bool straight =
-      false;          ///< the line to the next corner is straight on the map; else an arc of a great circle
-  bool seam = false;  ///< the line to the next corner only joins a ring around a pole to that pole
 
   double x() const { return lon + 360.0 * turn; }
 };
@@ -37,28 +34,13 @@ MapCorner corner_at(const Faces& faces, std::int32_t corner, const LonLat& angle
 MapRing ring_of(const Faces& faces, std::size_t face, const LonLat& angles,
                 const std::vector<std::int32_t>& corner);
 
-/// Throws NoMesh, naming the cell or triangle, if a side is a half turn: its ends do not determine its great
-/// circle.
-void expect_no_half_turn(const MapRing& ring, const Faces& faces, std::size_t face);
-
-/// Moves corners to the meridians lon + 360 k if they are as close as rounding. What is cut off at a meridian
-/// is then no sliver that rounding makes. Their vectors stay: they tell that corners are the same.
-void move_to_meridian(MapRing& ring, double lon);
-
-/// Moves corners closer than kSamePlace to a pole to the pole, where longitudes are rounding.
-void move_to_poles(MapRing& ring);
-
-/// The map of a convex polygon whose sides are arcs or straight lines; turns of `ring` are ignored. A pole at
+/// The map of a convex polygon; turns of `ring` are ignored. A pole at
 /// a corner or on a side becomes a line of the map. If the pole is inside, the ring reaches from `west` to
 /// `west` + 360 and is closed along the pole. Empty if all corners coincide or lie on one arc.
 MapRing unrolled(const MapRing& ring, double west);
 
-/// The pieces of the ring between the meridians `west` and `west` + width, with longitudes of that window.
-/// width <= 360. A meridian must cross the ring at most twice.
-std::vector<MapRing> between_meridians(MapRing corners, double west, double width);
-
-/// The pieces of the ring between two parallels.
-std::vector<MapRing> between_parallels(MapRing ring, double south, double north);
+/// The pieces of the ring between -180 and 180, with longitudes of this range.
+std::vector<MapRing> cut_at_dateline(MapRing ring);
 
 /// Faces as polygons with straight sides on the map from -180 to 180. A straight line is within 0.001
 /// degrees, and a hundredth of its length, of its arc: polygons of narrower faces may overlap by this. An arc
@@ -86,9 +68,5 @@ class MapLines {
   LonLat angles_;
   std::vector<std::int32_t> corner_;
 };
-
-/// Adds corners until arcs of great circles are within 0.0001 degrees of the straight lines and no side is
-/// longer than 90 degrees.
-MapRing with_arcs(const MapRing& ring);
 
 }  // namespace files

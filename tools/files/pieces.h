@@ -48,11 +48,14 @@ class Pieces {
   Faces take() { return std::move(faces_); }
 
  private:
+  /// True for all corners of the cell, in their order, whichever is the first.
   bool is_whole(const MapRing& ring, std::size_t cell) const {
-    const std::size_t begin = cells_.begin[cell];
-    if (ring.size() != cells_.corners(cell)) return false;
-    for (std::size_t k = 0; k < ring.size(); ++k)
-      if (ring[k].p != cells_.point(begin + k)) return false;
+    const std::size_t begin = cells_.begin[cell], n = cells_.corners(cell);
+    std::size_t first = 0;
+    while (first < n && ring[0].p != cells_.point(begin + first)) ++first;
+    if (first == n || ring.size() != n) return false;
+    for (std::size_t k = 0; k < n; ++k)
+      if (ring[k].p != cells_.point(begin + (first + k) % n)) return false;
     return true;
   }
 

@@ -15,121 +15,60 @@
 namespace files {
 namespace {
 
-class Reader {
- public:
-  explicit Reader(std::string file) : file_(std::move(file)) {
-    read_features(contents_of(file_), file_, "polygons", {"Polygon", "MultiPolygon"},
-                  [&](const Json& feature, std::size_t number) { add(feature, number); });
-    if (features.empty()) throw std::runtime_error(file_ + ": no polygons: there are no features");
-  }
+[[noreturn]] void fail(const std::string& file, std::size_t feature, const std::string& what) {
+  throw std::runtime_error(fmt::format("{}: feature {}: {}", file, feature, what));
+}
 
-  struct Feature {
+/// A ring once around the globe along a parallel becomes the cap between the parallel and the nearer pole.
+void make_cap(Line& corners) {
+  const auto [west, east] = std::minmax_element(corners.begin(), corners.end());
+  const double lat = west->second, pole = std::copysign(90, lat);
+  for (const auto& corner : corners)
+    if (corner.second != lat || std::fabs(lat) == 90 || east->first - west->first != 360) return;
+  corners = {*west, *east, {east->first, pole}, {west->first, pole}, *west};
+}
+
+/// The polygons of each feature.
+std::vector<std::pair<Shape, std::vector<MapRegion>>> read(const std::string& file) {
+  std::vector<std::pair<Shape, std::vector<MapRegion>>> all;
+  for (Shape& shape : read_shapes(file, "polygons", {"Polygon", "MultiPolygon"})) {
     std::vector<MapRegion> polygons;
-    Json properties;
-  };
-  std::vector<Feature> features;
-
-  WidthRegion width_region(const Feature& feature) {
-    WidthRegion region;
-    number_ = region.feature = feature.polygons.front().feature;
-    for (const MapRegion& polygon : feature.polygons)
-      region.rings.insert(region.rings.end(), polygon.rings.begin(), polygon.rings.end());
-    region.width = length(feature.properties, "width");
-    if (feature.properties.contains("transition") && !feature.properties["transition"].is_null())
-      region.transition = length(feature.properties, "transition");
-    if (!(region.width > 0)) fail("it needs the property width, in km and above 0");
-    if (!(region.transition >= 0)) fail("its property transition must be in km, and not negative");
-    return region;
-  }
-
- private:
-  void add(const Json& feature, std::size_t number) {
-    number_ = number;
-    const auto geometry = feature.find("geometry");
-    const std::string type =
-        geometry != feature.end() && geometry->is_object() ? text_of(*geometry, "type") : "";
-    if (type != "Polygon" && type != "MultiPolygon")
-      fail(fmt::format("'{}' is not a Polygon or MultiPolygon", excerpt(type)));
-    const auto coordinates = geometry->find("coordinates");
-    if (coordinates == geometry->end() || !coordinates->is_array()) fail("its geometry has no coordinates");
-    Feature& added = features.emplace_back();
-    if (type == "Polygon")
-      added.polygons.push_back(polygon_of(*coordinates));
-    else
-      for (const Json& polygon : *coordinates) added.polygons.push_back(polygon_of(polygon));
-    if (added.polygons.empty()) fail("a MultiPolygon without polygons");
-    const auto properties = feature.find("properties");
-    added.properties = properties != feature.end() && properties->is_object() ? *properties : Json::object();
-    const std::string name = name_of(feature, added.properties);
-    for (MapRegion& polygon : added.polygons) polygon.name = name;
-  }
-
-  [[noreturn]] void fail(const std::string& what) const {
-    throw std::runtime_error(fmt::format("{}: feature {}: {}", file_, number_, what));
-  }
-
-  /// Not a number if there is none.
-  static double length(const Json& properties, const char* name) {
-    double value = std::nan("");
-    const auto found = properties.find(name);
-    if (found == properties.end()) return value;
-    if (found->is_number()) value = found->get<double>();
-    if (found->is_string() && !point_sets::parse(found->get<std::string>(), value)) value = std::nan("");
-    return std::isfinite(value) ? value : std::nan("");
-  }
-
-  static std::string name_of(const Json& feature, const Json& properties) {
-    const auto text = [](const Json& value) {
-      return value.is_string() ? value.get<std::string>() : value.is_number() ? value.dump() : "";
-    };
-    for (const char* const name : {"name", "Name", "NAME", "id", "Id", "ID"})
-      if (properties.contains(name) && !text(properties[name]).empty()) return text(properties[name]);
-    return feature.contains("id") ? text(feature["id"]) : "";
-  }
-
-  MapRegion polygon_of(const Json& polygon) const {
-    MapRegion region{number_};
-    if (!polygon.is_array() || polygon.empty()) fail("a polygon without rings");
-    for (const Json& ring : polygon) {
-      if (!ring.is_array() || ring.size() < 4) fail("a ring with fewer than four corners");
-      auto& corners = region.rings.emplace_back();
-      for (const Json& corner : ring) {
-        if (!corner.is_array() || corner.size() < 2 || !corner[0].is_number() || !corner[1].is_number())
-          fail("expected corners [longitude, latitude]");
-        corners.emplace_back(corner[0].get<double>(), corner[1].get<double>());
-        const auto [lon, lat] = corners.back();
-        if (!(std::fabs(lat) <= 90)) fail(fmt::format("latitude {:g} is beyond the pole", lat));
-        if (!(lon >= -180 && lon <= 540)) fail(fmt::format("longitude {:g} is not within -180 to 540", lon));
-        const double before = corners.size() > 1 ? corners[corners.size() - 2].first : lon;
-        if (std::fabs(lon - before) > 180 && std::fabs(lon - before) < 360)
-          fail(fmt::format(
-              "its side from longitude {:g} to {:g} goes around the globe: cut the polygon at 180, "
-              "or write {:g} in place of {:g}",
-              before, lon, std::min(before, lon) + 360, std::min(before, lon)));
+    for (std::vector<Line>& rings : shape.parts) {
+      for (Line& ring : rings) {
+        if (ring.size() < 4) fail(file, shape.number, "a ring with fewer than four corners");
+        for (std::size_t i = 1; i < ring.size(); ++i) {
+          const double lon = ring[i].first, before = ring[i - 1].first;
+          if (std::fabs(lon - before) > 180 && std::fabs(lon - before) < 360)
+            fail(file, shape.number,
+                 fmt::format("its side from longitude {:g} to {:g} goes around the globe: cut the polygon at "
+                             "180, or write {:g} in place of {:g}",
+                             before, lon, std::min(before, lon) + 360, std::min(before, lon)));
+        }
+        make_cap(ring);
+        const auto [first, last] = std::pair(ring.front(), ring.back());
+        if (std::fabs(first.first - last.first) == 360)
+          fail(file, shape.number,
+               fmt::format("a ring around a pole: continue it by {:g},{:g} {:g},{:g} and its first corner",
+                           last.first, std::copysign(90, last.second), first.first,
+                           std::copysign(90, last.second)));
+        if (first != last) fail(file, shape.number, "a ring that is not closed: repeat its first corner");
       }
-      make_cap(corners);
-      const auto [first, last] = std::pair(corners.front(), corners.back());
-      if (std::fabs(first.first - last.first) == 360)
-        fail(fmt::format("a ring around a pole: continue it by {:g},{:g} {:g},{:g} and its first corner",
-                         last.first, std::copysign(90, last.second), first.first,
-                         std::copysign(90, last.second)));
-      if (first != last) fail("a ring that is not closed: repeat its first corner");
+      polygons.push_back({shape.number, shape.name, std::move(rings)});
     }
-    return region;
+    all.emplace_back(std::move(shape), std::move(polygons));
   }
+  return all;
+}
 
-  /// A ring once around the globe along a parallel becomes the cap between the parallel and the nearer pole.
-  static void make_cap(std::vector<std::pair<double, double>>& corners) {
-    const auto [west, east] = std::minmax_element(corners.begin(), corners.end());
-    const double lat = west->second, pole = std::copysign(90, lat);
-    for (const auto& corner : corners)
-      if (corner.second != lat || std::fabs(lat) == 90 || east->first - west->first != 360) return;
-    corners = {*west, *east, {east->first, pole}, {west->first, pole}, *west};
-  }
-
-  std::string file_;
-  std::size_t number_ = 0;
-};
+/// Not a number if there is none.
+double number_in(const Json& properties, const char* name) {
+  double value = std::nan("");
+  const auto found = properties.find(name);
+  if (found == properties.end()) return value;
+  if (found->is_number()) value = found->get<double>();
+  if (found->is_string() && !point_sets::parse(found->get<std::string>(), value)) value = std::nan("");
+  return std::isfinite(value) ? value : std::nan("");
+}
 
 }  // namespace
 
@@ -168,19 +107,28 @@ double MapRegion::area() const {
   return area * kDegree * kDegree;
 }
 
-std::vector<MapRegion> read_polygons(const std::string& file) {
-  if (std::filesystem::path(file).extension() == ".pts") return read_pts(file, 1000 * kEarthRadius);
-  std::vector<MapRegion> polygons;
-  Reader reader(file);
-  for (Reader::Feature& feature : reader.features)
-    for (MapRegion& polygon : feature.polygons) polygons.push_back(std::move(polygon));
-  return polygons;
+std::vector<MapRegion> read_polygons(const std::string& file, double radius) {
+  if (std::filesystem::path(file).extension() == ".pts") return {read_pts(file, radius)};
+  std::vector<MapRegion> all;
+  for (auto& [shape, polygons] : read(file))
+    for (MapRegion& polygon : polygons) all.push_back(std::move(polygon));
+  return all;
 }
 
 std::vector<WidthRegion> read_width_regions(const std::string& file) {
-  Reader reader(file);
   std::vector<WidthRegion> regions;
-  for (const Reader::Feature& feature : reader.features) regions.push_back(reader.width_region(feature));
+  for (const auto& [shape, polygons] : read(file)) {
+    WidthRegion& region = regions.emplace_back();
+    region.feature = shape.number;
+    for (const MapRegion& polygon : polygons)
+      region.rings.insert(region.rings.end(), polygon.rings.begin(), polygon.rings.end());
+    region.width = number_in(shape.properties, "width");
+    if (shape.properties.contains("transition") && !shape.properties["transition"].is_null())
+      region.transition = number_in(shape.properties, "transition");
+    if (!(region.width > 0)) fail(file, shape.number, "it needs the property width, in km and above 0");
+    if (!(region.transition >= 0))
+      fail(file, shape.number, "its property transition must be in km, and not negative");
+  }
   return regions;
 }
 

@@ -177,7 +177,7 @@ void for_each_inside(const files::WidthRegion& region, double lat, std::size_t c
     const auto first = static_cast<std::int64_t>(std::ceil((west + 180) * per_degree));
     const auto last = static_cast<std::int64_t>(std::floor((east + 180) * per_degree));
     for (std::int64_t c = first; c <= last && c < first + static_cast<std::int64_t>(columns); ++c)
-      visit(static_cast<std::size_t>(c) % columns);
+      visit(static_cast<std::size_t>(c + 2 * static_cast<std::int64_t>(columns)) % columns);
   }
 }
 

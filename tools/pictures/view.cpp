@@ -298,7 +298,7 @@ std::vector<Outline> LonLat::polygon(const std::vector<Point>& corners) const {
   for (std::size_t i = 0; i < corners.size(); ++i)
     add_arc(corners[i], corners[(i + 1) % corners.size()], points);
   files::MapRing ring;
-  for (const Point& p : points) ring.push_back({p, spot_of(p).lon, spot_of(p).lat, 0, true});
+  for (const Point& p : points) ring.push_back({p, spot_of(p).lon, spot_of(p).lat});
   ring = files::unrolled(ring, west_);
   std::vector<Outline> parts;
   if (ring.empty()) return parts;

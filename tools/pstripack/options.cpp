@@ -154,9 +154,8 @@ files::LimitedArea limited_area_of(const std::string& text, const std::string& s
     throw CLI::ValidationError("--region", "there is no file '" + text +
                                                "': expected WEST,EAST,SOUTH,NORTH, circle:KM,LON,LAT, or a "
                                                "file of GeoJSON polygons or NAME.pts");
-  if (is_file && std::filesystem::path(text).extension() == ".pts")
-    return files::pts_area(text, 1000 * radius);
-  if (is_file) return files::polygon_area(text, read.units == files::Units::degrees, great_circles);
+  if (is_file)
+    return files::file_area(text, 1000 * radius, read.units == files::Units::degrees, great_circles);
   const std::string name = "--region " + text;
   if (!is_circle) {
     const files::Region box = region_of(text);

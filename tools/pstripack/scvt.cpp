@@ -274,7 +274,10 @@ methods::Widths widths_of_regions(const Options& options) {
 
 methods::Widths widths_of_distance(const Options& options) {
   const methods::WidthDistance given(options.width_distance);
-  const auto lines = files::read_lines(given.file);
+  std::vector<files::Line> lines;
+  for (const files::Shape& shape :
+       files::read_shapes(given.file, "lines", {"LineString", "Polygon", "MultiLineString", "MultiPolygon"}))
+    for (const auto& part : shape.parts) lines.insert(lines.end(), part.begin(), part.end());
   return widths_of(methods::widths_of_distance(lines, given, options.radius / 1000), options);
 }
 

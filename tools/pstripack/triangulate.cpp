@@ -86,18 +86,17 @@ void tell_huge_cell(const Options& options, const files::Faces& faces, const fil
       mesh.has_boundary() ? " or --clip-to-hull" : ""));
 }
 
-void clip(files::Faces& faces, const std::string& file) {
+void clip(files::Faces& faces, const std::string& to) {
   try {
-    faces = clipped_to_polygons(faces, files::read_polygons(file));
+    faces = clipped_to_polygons(faces, is_box(to) ? std::vector{region_of_box(region_of(to, "--clip-to"))}
+                                                  : files::read_polygons(to));
   } catch (const files::NoMesh& e) {
-    throw std::runtime_error(file + ": " + e.what());
+    throw std::runtime_error(to + ": " + e.what());
   }
+  if (faces.size() == 0) throw files::NoMesh(to + " holds no part of the cells that is wider than rounding");
 }
 
 void voronoi(Options& options) {
-  const bool has_box = is_box(options.clip_to), has_polygons = !has_box && !options.clip_to.empty();
-  if (has_polygons && options.clip_to_hull)
-    throw CLI::ValidationError("--clip-to", "polygons cut whole cells: leave out --clip-to-hull");
   run(options, [&](const files::OutputFile& file, const files::Mesh& mesh) {
     const bool are_whole = options.clip_to.empty() && !options.clip_to_hull;
     files::Faces faces = files::voronoi_faces(mesh);
@@ -106,12 +105,7 @@ void voronoi(Options& options) {
     if (options.clip_to_hull && !mesh.has_boundary())
       say(options.input.file + ": the nodes surround the sphere: --clip-to-hull cuts nothing");
     if (options.clip_to_hull) faces = clipped_to_hull(faces, mesh);
-    if (has_box) faces = clipped_to_region(faces, region_of(options.clip_to, "--clip-to"));
-    if (has_polygons) clip(faces, options.clip_to);
-    if (faces.size() == 0)
-      throw files::NoMesh(has_polygons ? "the polygons of " + options.clip_to + " are narrower than rounding"
-                          : options.clip_to_hull ? "no part of the hull of the nodes lies in the box"
-                                                 : "the box is smaller than 1e-10 degrees: make it larger");
+    if (!options.clip_to.empty()) clip(faces, options.clip_to);
     files::add_columns(faces, mesh);
     faces.variant = options.output.variant;
     write_faces(file, options.output.format, faces, mesh.notes);

@@ -95,7 +95,7 @@ class Presentation(Values):
         geopandas.GeoDataFrame
             Polygons are counterclockwise, cut at the dateline, closed along a pole inside them, and within 0.001 degrees of
             the arcs: 110 m on the Earth. The column ``area_km2`` is the exact area of the cell or triangle on a sphere of
-            radius 6371 km, or of its part inside ``clip``; this part is right to a millionth of the area of ``clip``. A
+            radius 6371 km, or of its part inside ``clip``; this part is right to 0.01 % of the area of ``clip``. A
             cell outside ``clip`` has the area 0 and no geometry. The index of cells is ``labels``. If the nodes lie in a
             hemisphere, the cells of boundary nodes share the rest of the sphere.
 
