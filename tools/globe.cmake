@@ -11,4 +11,4 @@ const char* const kGlobeHtml = R\"html(@globe_html@)html\";
 }
 ")
 set(globe_sources ${PROJECT_BINARY_DIR}/globe_html.cpp ${pictures}/coasts.cpp ${pictures}/colours.cpp
-                  ${pictures}/font.cpp ${pictures}/globe.cpp ${pictures}/scale.cpp ${pictures}/shading.cpp)
+                  ${pictures}/globe.cpp ${pictures}/scale.cpp ${pictures}/shading.cpp)

@@ -90,9 +90,9 @@ class Drawing {
       auto view = std::make_unique<pictures::LonLat>(centre, window.radius, frame);
       const pictures::Frame& used = view->frame();
       // Rounding must not carry a corner over the edge.
-      x_ = {used.left, (view->east() - view->west()) / used.width(), view->west(), view->east()};
-      y_ = {used.bottom, -(view->north() - view->south()) / used.height(), view->south(), view->north()};
-      x_.at_origin = view->west(), y_.at_origin = view->south();
+      const auto& [west, east, south, north] = view->bounds();
+      x_ = {used.left, (east - west) / used.width(), west, east, west};
+      y_ = {used.bottom, -(north - south) / used.height(), south, north, south};
       view_ = std::move(view);
     }
   }

@@ -14,8 +14,6 @@
 #include "parallel/sample.h"
 #include "pictures/coasts.h"
 #include "pictures/colours.h"
-#include "pictures/font.h"
-#include "pictures/legend.h"
 #include "pictures/scale.h"
 #include "pictures/sheet.h"
 #include "point_sets.h"
@@ -58,21 +56,21 @@ class MeshPicture {
   }
 
   std::string svg() {
-    top_ = sheet_.title(options_.title);
+    if (!options_.title.empty()) sheet_.centred(30, 18, options_.title);
+    top_ = options_.title.empty() ? 14 : 48;
     choose_view();
     count_nodes_in_view();
     const bool cells = options_.what == What::cells;
     faces_ = cells ? files::voronoi_faces(mesh_) : files::triangle_faces(mesh_);
     if (cells) files::divide_half_turns(faces_);
-    draw_ground();
+    draw_frame("#fbfcfd", "none");
     draw_faces();
-    draw_graticule_again();
+    draw_graticule();
     draw_lines();
     draw_coasts();
     draw_stations();
     draw_boundary();
-    draw_border();
-    draw_labels();
+    draw_frame("none", "#8a949e");
     draw_footer();
     draw_ranks();
     draw_legend();
@@ -100,29 +98,21 @@ class MeshPicture {
       radius_ = options_.radius ? *options_.radius : radius_of_nodes(centre);
     }
     radius_ = std::min(90.0, radius_);
-    zoomed_ = radius_ < 90;
+    const bool has_labels = options_.lonlat || radius_ < 90;
     decimals_ = std::max(2, 1 - static_cast<int>(std::floor(std::log10(radius_))));
-    // Space for the longest label beside the drawing.
-    const double least = options_.lonlat ? 56.0 : zoomed_ ? 60.0 : 0.075 * sheet_.width();
-    const double margin =
-        options_.lonlat || zoomed_
-            ? std::max(least, 10 + text_width(name_of_latitude(-88.88888888, decimals_), kLabel))
-            : least;
-    if (options_.lonlat) {
-      const Frame frame{margin, top_, sheet_.width() - 24, top_ + 620};
-      auto map = options_.region ? std::make_unique<LonLat>(*options_.region, frame)
-                                 : std::make_unique<LonLat>(centre, radius_, frame);
-      lonlat_ = map.get();
-      view_ = std::move(map);
-    } else {
-      if (zoomed_) top_ += 16;  // space for labels above it
-      auto sphere = std::make_unique<Orthographic>(
-          centre, radius_, Frame{margin, top_, sheet_.width() - margin, top_ + sheet_.width() - 2 * margin});
-      orthographic_ = sphere.get();
-      view_ = std::move(sphere);
-    }
+    label_width_ = text_width(name_of_latitude(-88.88888888, decimals_), kLabel);
+    const double margin = has_labels ? std::max(60.0, 10 + label_width_) : 0.075 * sheet_.width();
+    const double right = sheet_.width() - (options_.lonlat ? 36 : margin);
+    if (has_labels && !options_.lonlat) top_ += 16;  // space for labels above it
+    const Frame frame{margin, top_, right, top_ + (options_.lonlat ? 620 : right - margin)};
+    if (!options_.lonlat)
+      view_ = std::make_unique<Orthographic>(centre, radius_, frame);
+    else if (options_.region)
+      view_ = std::make_unique<LonLat>(*options_.region, frame);
+    else
+      view_ = std::make_unique<LonLat>(centre, radius_, frame);
     centre_ = centre;
-    top_ = view_->frame().bottom + 8;
+    top_ = view_->frame().bottom + (has_labels ? 25 : 8);
   }
 
   Spot default_centre() const {
@@ -166,76 +156,63 @@ class MeshPicture {
     return round_step(span, static_cast<int>(lines));
   }
 
-  /// The background with the graticule.
-  void draw_ground() {
-    Path& path = graticule_path_;
-    const auto at = point_sets::from_degrees;
+  /// Meridians and parallels, which a disc of colours does without, and their names where they meet a border
+  /// that is no circle.
+  void draw_graticule() {
+    if (view_->is_disc() && options_.colour != Colour::none) return;
+    const auto& [west, east, south, north] = view_->bounds();
+    // So many meridians leave space for their names.
+    const double most = std::min(9.0, view_->frame().width() / (label_width_ + 10));
+    const double across = graticule_step(east - west, options_.lonlat || east - west < 360 ? most : 12);
+    Path path;
+    for (const double lon : multiples(west, east, across))
+      add_meridian_or_parallel(
+          true, name_of_longitude(lon, decimals_), path,
+          [&, s = south, n = north](double t) { return point_sets::from_degrees(lon, s + (n - s) * t); });
+    for (const double lat : multiples(south, north, graticule_step(north - south, 7)))
+      add_meridian_or_parallel(
+          false, name_of_latitude(lat, decimals_), path, [&, w = west, e = east](double t) {
+            constexpr double kPole = 90 - 1e-6;  // all longitudes have a place
+            return point_sets::from_degrees(w + (e - w) * t, std::clamp(lat, -kPole, kPole));
+          });
+    sheet_.path(path, fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"0.8\"",
+                                  options_.colour == Colour::none ? "#d5dce3" : "#00000040"));
+  }
+
+  /// at(0) ... at(1): the line.
+  template <class At>
+  void add_meridian_or_parallel(bool is_meridian, const std::string& name, Path& path, const At& at) {
+    constexpr int kPieces = 120;
+    constexpr double kNear = 1e-6;
+    std::vector<Place> ends;
+    for (int k = 0; k < kPieces; ++k)
+      for (const Outline& part : view_->arc(at(k / double{kPieces}), at((k + 1) / double{kPieces}))) {
+        add({part}, false, path);
+        ends.insert(ends.end(), {part.front(), part.back()});
+      }
+    if (view_->is_disc()) return;
     const Frame& frame = view_->frame();
-    if (lonlat_ != nullptr) {
-      sheet_.rectangle(frame.left, frame.top, frame.width(), frame.height(), "#fbfcfd");
-      for (const double lon : multiples(lonlat_->west(), lonlat_->east(), lon_step())) {
-        path.move(lonlat_->on_paper({lon, lonlat_->south()}));
-        path.line(lonlat_->on_paper({lon, lonlat_->north()}));
+    bool found = false;
+    for (const bool first : {true, false})  // below, else above; on the left, else on the right
+      for (const Place& p : ends) {
+        const double side =
+            is_meridian ? (first ? frame.bottom : frame.top) : (first ? frame.left : frame.right);
+        if ((found && !first) || std::fabs((is_meridian ? p.y : p.x) - side) > kNear) continue;
+        found = true;
+        const Place text =
+            is_meridian ? Place{p.x, side + (first ? 17 : -6)} : Place{side + (first ? -7 : 7), p.y + 4};
+        const bool is_free = std::none_of(labels_.begin(), labels_.end(), [&](const Place& label) {
+          return std::fabs(text.x - label.x) < label_width_ && std::fabs(text.y - label.y) < kLabel;
+        });
+        if (!is_free) continue;
+        labels_.push_back(text);
+        sheet_.text(text, kLabel,
+                    is_meridian ? Anchor::middle
+                    : first     ? Anchor::end
+                                : Anchor::start,
+                    name, kGrey);
       }
-      for (const double lat : multiples(lonlat_->south(), lonlat_->north(), lat_step())) {
-        path.move(lonlat_->on_paper({lonlat_->west(), lat}));
-        path.line(lonlat_->on_paper({lonlat_->east(), lat}));
-      }
-    } else {
-      if (!zoomed_)
-        sheet_.add(circle("#fbfcfd", "none"));
-      else
-        sheet_.rectangle(frame.left, frame.top, frame.width(), frame.height(), "#fbfcfd");
-      // The corners of the square are farther from the centre than its sides.
-      const double reach =
-          files::kRadian * std::asin(std::min(1.0, std::sqrt(2.0) * std::sin(radius_ / files::kRadian)));
-      const double south = std::max(-90.0, centre_.lat - reach), north = std::min(90.0, centre_.lat + reach);
-      const bool pole = std::fabs(centre_.lat) + reach > 85;
-      const double half = pole ? 180
-                               : files::kRadian * std::asin(std::sin(reach / files::kRadian) /
-                                                            std::cos(centre_.lat / files::kRadian));
-      const double step = graticule_step(2 * radius_, 6);
-      const double across = pole ? std::max(30.0, step) : graticule_step(2 * half, meridians());
-      constexpr int kPieces = 60;
-      for (const double lon : multiples(centre_.lon - half, centre_.lon + half - 1e-9, across)) {
-        graticule_.push_back({true, name_of_longitude(lon, decimals_), {}});
-        for (int k = 0; k < kPieces; ++k)
-          add_graticule(at(lon, south + (north - south) * k / kPieces),
-                        at(lon, south + (north - south) * (k + 1) / kPieces), path);
-      }
-      for (const double lat : multiples(south, north, step)) {
-        graticule_.push_back({false, name_of_latitude(lat, decimals_), {}});
-        for (int k = 0; k < kPieces && std::fabs(lat) < 90; ++k)
-          add_graticule(at(centre_.lon - half + 2 * half * k / kPieces, lat),
-                        at(centre_.lon - half + 2 * half * (k + 1) / kPieces, lat), path);
-      }
-    }
-    sheet_.path(path, fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"0.8\"", kGraticule));
   }
-
-  /// Over coloured faces, where its lines lead to labels.
-  void draw_graticule_again() {
-    if (options_.colour != Colour::none && (lonlat_ != nullptr || zoomed_))
-      sheet_.path(graticule_path_,
-                  "fill=\"none\" stroke=\"#000000\" stroke-opacity=\"0.35\" stroke-width=\"0.8\"");
-  }
-
-  /// Adds a piece of the current line of the graticule to the path and remembers its ends.
-  void add_graticule(const Point& a, const Point& b, Path& path) {
-    const std::vector<Outline> parts = view_->arc(a, b);
-    add(parts, false, path);
-    for (const Outline& part : parts)
-      for (const Place& end : {part.front(), part.back()}) graticule_.back().ends.push_back(end);
-  }
-
-  /// Number of meridians that leaves space for their labels.
-  double meridians() const {
-    constexpr double kGap = 10;
-    return std::min(9.0, view_->frame().width() /
-                             (text_width(name_of_longitude(-88.88888888, decimals_), kLabel) + kGap));
-  }
-  double lon_step() const { return graticule_step(lonlat_->east() - lonlat_->west(), meridians()); }
-  double lat_step() const { return graticule_step(lonlat_->north() - lonlat_->south(), 7); }
 
   static std::vector<double> multiples(double low, double high, double step) {
     std::vector<double> values;
@@ -243,11 +220,14 @@ class MeshPicture {
     return values;
   }
 
-  std::string circle(const char* fill, const char* stroke) const {
-    return fmt::format(
-        "<circle class=\"{}\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" fill=\"{}\" stroke=\"{}\"/>\n",
-        Sheet::kDrawing, orthographic_->middle().x, orthographic_->middle().y, orthographic_->scale(), fill,
-        stroke);
+  /// The drawing's ground or border.
+  void draw_frame(const char* fill, const char* stroke) {
+    const Frame& frame = view_->frame();
+    if (!view_->is_disc())
+      return sheet_.rectangle(frame.left, frame.top, frame.width(), frame.height(), fill, stroke);
+    const double radius = frame.width() / 2;
+    sheet_.add(fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" fill=\"{}\" stroke=\"{}\"/>\n",
+                           frame.left + radius, frame.top + radius, radius, fill, stroke));
   }
 
   // ---- what is in it ----
@@ -304,7 +284,7 @@ class MeshPicture {
 
   void shade_by_numbers(const std::vector<double>& values, const std::string& title,
                         const std::string& unit) {
-    shading_ = shading_of_numbers(values, title, unit, {options_.palette, options_.range, bar_width(sheet_)});
+    shading_ = shading_of_numbers(values, title, unit, options_.range, bar_width());
   }
 
   /// By the values of a column. A triangle gets the mean of its corners.
@@ -374,9 +354,7 @@ class MeshPicture {
       beside[owner_[a]].insert(owner_[b]);
       beside[owner_[b]].insert(owner_[a]);
     });
-    std::vector<std::vector<std::size_t>> lists;
-    for (const auto& set : beside) lists.emplace_back(set.begin(), set.end());
-    for (const std::string& colour : distinct_colours(lists))
+    for (const std::string& colour : distinct_colours(beside))
       shading_.shades.push_back({colour, std::to_string(shading_.shades.size())});
     for (const std::size_t owner : owner_) ++shading_.shades[owner].count;
     shading_.of_face = owner_;
@@ -424,7 +402,7 @@ class MeshPicture {
     }
     spacing_ = count == 0 ? 10 : length / static_cast<double>(count);
     const char* const colour = options_.colour == Colour::none ? kLine
-                               : shading_.scale                ? options_.palette->lines
+                               : shading_.scale                ? "#ffffff"
                                                                : "#555555";
     sheet_.add(fmt::format(
         "<g fill=\"none\" stroke=\"{}\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n", colour));
@@ -479,104 +457,42 @@ class MeshPicture {
   void draw_boundary() {
     if (boundary_.empty()) return;
     Path path;
-    std::vector<Point> nodes;
-    for (const std::size_t node : boundary_) {
-      const auto next = index(reader_.first_neighbour(static_cast<std::int32_t>(node) + 1));
-      add(view_->arc(nodes_[node], nodes_[next]), false, path);
-      nodes.push_back(nodes_[node]);
-    }
-    if (options_.what == What::triangles)
-      sheet_.path(path,
-                  fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2f}\" stroke-linecap=\"round\"",
-                              kVermilion, std::clamp(0.1 * spacing_, 0.4, 1.6)));
-    draw_dots(nodes, kVermilion, std::clamp(0.25 * spacing_, 1.2, 5.0));
+    for (const std::size_t node : boundary_)
+      add(view_->arc(nodes_[node],
+                     nodes_[index(reader_.first_neighbour(static_cast<std::int32_t>(node) + 1))]),
+          false, path);
+    sheet_.path(path,
+                fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2f}\" stroke-linecap=\"round\"",
+                            kVermilion, std::clamp(0.1 * spacing_, 0.4, 1.6)));
   }
 
-  void draw_border() {
-    const Frame& frame = view_->frame();
-    if (lonlat_ == nullptr && !zoomed_)
-      sheet_.add(circle("none", "#8a949e"));
-    else
-      sheet_.rectangle(frame.left, frame.top, frame.width(), frame.height(), "none", "#8a949e",
-                       Sheet::kDrawing);
-  }
-
-  /// Draws longitudes and latitudes around a map, or where the graticule meets the border of a zoomed view.
-  void draw_labels() {
-    const Frame& frame = view_->frame();
-    constexpr double kTick = 4;
-    // Each draws a label and its tick at a side of the frame, unless there is no space.
-    const auto beside = [&](double y, const std::string& name, bool left) {
-      const double x = left ? frame.left : frame.right, out = left ? -1 : 1;
-      if (!sheet_.text_if_free({x + 7 * out, y + 4}, kLabel, left ? Anchor::end : Anchor::start, name, kGrey))
-        return false;
-      sheet_.rectangle(left ? x - kTick : x, y - 0.5, kTick, 1, kGrey);
-      return true;
-    };
-    const auto above_or_below = [&](double x, const std::string& name, bool above) {
-      const double y = above ? frame.top : frame.bottom;
-      if (!sheet_.text_if_free({x, above ? y - 6 : y + 17}, kLabel, Anchor::middle, name, kGrey))
-        return false;
-      sheet_.rectangle(x - 0.5, above ? y - kTick : y, 1, kTick, kGrey);
-      return true;
-    };
-    if (lonlat_ != nullptr) {
-      for (const double lon : multiples(lonlat_->west(), lonlat_->east(), lon_step()))
-        above_or_below(lonlat_->on_paper({lon, 0}).x, name_of_longitude(lon, decimals_), false);
-      for (const double lat : multiples(lonlat_->south(), lonlat_->north(), lat_step()))
-        beside(lonlat_->on_paper({0, lat}).y, name_of_latitude(lat, decimals_), true);
-      top_ += 17;
-      return;
-    }
-    if (!zoomed_) return;
-    constexpr double kNear = 1e-6;
-    for (const GraticuleLine& line : graticule_)
-      for (const bool first : {true, false}) {  // below, else above; left, else right
-        const auto end = std::find_if(line.ends.begin(), line.ends.end(), [&](const Place& p) {
-          return line.is_meridian ? (first ? p.y > frame.bottom - kNear : p.y < frame.top + kNear)
-                                  : (first ? p.x < frame.left + kNear : p.x > frame.right - kNear);
-        });
-        if (end == line.ends.end()) continue;
-        if (line.is_meridian ? above_or_below(end->x, line.name, !first) : beside(end->y, line.name, first))
-          break;
-      }
-    top_ += 17;
-  }
-
-  /// Draws the position below the eye and a scale bar.
+  /// The place below the eye, or a scale bar.
   void draw_footer() {
-    const Frame& frame = view_->frame();
-    const std::string eye = "above " + name_of(centre_, decimals_);
-    if (!zoomed_) {
-      if (lonlat_ != nullptr) return;
-      // Beside the circle, or below it, where the picture is narrow.
-      const Place middle = orthographic_->middle();
-      const double right = sheet_.width() - 14, left = right - text_width(eye, kLabel) - 4;
-      const bool is_beside =
-          std::hypot(left - middle.x, frame.bottom - 18 - middle.y) > orthographic_->scale() &&
-          left > middle.x;
-      if (!is_beside) top_ += 18;
-      sheet_.text({right, is_beside ? frame.bottom - 4 : top_ - 4}, kLabel, Anchor::end, eye, kGrey);
-      return;
+    if (view_->is_disc()) {
+      sheet_.text({sheet_.width() - 14, top_ + 8}, kLabel, Anchor::end,
+                  "above " + name_of_longitude(centre_.lon) + " " + name_of_latitude(centre_.lat), kGrey);
+      top_ += 16;
     }
+    if (radius_ == 90) return;
     // The bar's length is 1, 2 or 5 times a power of ten, at most a quarter of the width.
     const double pixels_per_km = view_->scale() / files::kEarthRadius;
-    const double longest = frame.width() / 4 / pixels_per_km;
+    const double longest = view_->frame().width() / 4 / pixels_per_km;
     const double power = std::pow(10, std::floor(std::log10(longest)));
     const double km = power * (longest >= 5 * power ? 5 : longest >= 2 * power ? 2 : 1);
-    const double left = frame.left, right = left + km * pixels_per_km, y = top_ + 14;
+    const double left = view_->frame().left, right = left + km * pixels_per_km, y = top_ + 14;
     sheet_.rectangle(left, y - 1, right - left, 2, kBlack);
     for (const double x : {left, right}) sheet_.rectangle(x - 0.75, y - 5, 1.5, 10, kBlack);
-    const std::string length = km < 1 ? fmt::format("{:g} m", 1000 * km)
-                                      : grouped(static_cast<std::size_t>(std::lround(km))) + " km";
-    sheet_.text({right + 8, y + 4}, kLabel, Anchor::start,
-                lonlat_ != nullptr ? length + " at " + name_of_latitude(centre_.lat, decimals_)
-                                   : length + " in the middle");
-    if (lonlat_ == nullptr) sheet_.text_if_free({frame.right, y + 4}, kLabel, Anchor::end, eye, kGrey);
+    sheet_.text(
+        {right + 8, y + 4}, kLabel, Anchor::start,
+        fmt::format("{} {}",
+                    km < 1 ? fmt::format("{:g} m", 1000 * km)
+                           : grouped(static_cast<std::size_t>(std::lround(km))) + " km",
+                    options_.lonlat ? "at " + name_of_latitude(centre_.lat, decimals_) : "in the middle"));
     top_ += 24;
   }
 
-  /// Draws the number of each rank at its node in the middle of its visible nodes if there is space.
+  /// Draws the number of each rank at its node in the middle of its visible nodes, if most of them are
+  /// visible.
   void draw_ranks() {
     constexpr int kMostNumbers = 100;
     constexpr double kNumber = 15;
@@ -594,47 +510,76 @@ class MeshPicture {
       const auto nearest =
           std::min_element(places[rank].begin(), places[rank].end(),
                            [&](const Place& p, const Place& q) { return from_middle(p) < from_middle(q); });
-      if (nearest == places[rank].end()) continue;
-      const std::string number = std::to_string(rank);
-      const Place at{nearest->x, nearest->y + 5};
-      if (is_inside(box_of(at, kNumber, Anchor::middle, number)))
-        sheet_.text_if_free(at, kNumber, Anchor::middle, number);
+      if (2 * places[rank].size() > shading_.shades[rank].count)
+        sheet_.text({nearest->x, nearest->y + 5}, kNumber, Anchor::middle, std::to_string(rank));
     }
     sheet_.add("</g>\n");
   }
 
-  /// True if the box lies in the drawing, at least a line width from its border.
-  bool is_inside(const Box& box) const {
-    const Frame& frame = view_->frame();
-    constexpr double kLine = 2;
-    if (lonlat_ != nullptr || zoomed_)
-      return box.left > frame.left + kLine && box.right < frame.right - kLine &&
-             box.top > frame.top + kLine && box.bottom < frame.bottom - kLine;
-    const Place middle = orthographic_->middle();
-    const double x = std::max(middle.x - box.left, box.right - middle.x),
-                 y = std::max(middle.y - box.top, box.bottom - middle.y);
-    return std::hypot(x, y) < orthographic_->scale() - kLine;
-  }
-
   // ---- legend ----
 
+  double bar_width() const { return std::min(400.0, sheet_.width() - 60); }
+
   void draw_legend() {
-    if (shading_.scale) {
-      top_ = draw_colour_bar(sheet_, top_, shading_, *options_.palette);
-      if (const std::size_t missing = shading_.shades.back().count;
-          options_.colour == Colour::value && missing > 0)
-        top_ = draw_note(sheet_, top_ + 2, kNoColour,
-                         fmt::format("no value: {} {}{}", grouped(missing), what(), missing == 1 ? "" : "s"));
-    } else if (options_.colour == Colour::degree || options_.colour == Colour::value) {
-      top_ = draw_shades(sheet_, top_, shading_);
-    } else if (options_.colour == Colour::owner) {
+    if (options_.colour == Colour::owner) {
       draw_legend_of_owners();
+    } else if (options_.colour != Colour::none) {
+      sheet_.centred(top_ + 14, 14, shading_.title);
+      top_ += 22;
+      if (shading_.scale)
+        draw_colour_bar();
+      else
+        draw_shades();
     }
+    const std::size_t missing = shading_.scale ? shading_.shades.back().count : 0;
+    if (options_.colour == Colour::value && missing > 0)
+      draw_note(kNoColour,
+                fmt::format("no value: {} {}{}", grouped(missing), what(), missing == 1 ? "" : "s"));
     if (boundary_.empty()) return;
     const bool grey = options_.what == What::cells && options_.colour == Colour::size;
-    top_ = draw_note(sheet_, top_, kVermilion,
-                     fmt::format("{} boundary nodes{}", grouped(boundary_.size()),
-                                 grey ? "; grey: their cells, which share the rest of the sphere" : ""));
+    draw_note(kVermilion, fmt::format("{} boundary nodes{}", grouped(boundary_.size()),
+                                      grey ? "; grey: their cells, which share the rest of the sphere" : ""));
+  }
+
+  void draw_colour_bar() {
+    constexpr int kStops = 20;
+    const double width = bar_width(), left = (sheet_.width() - width) / 2;
+    sheet_.add("<defs><linearGradient id=\"palette\">");
+    for (int k = 0; k <= kStops; ++k)
+      sheet_.add(fmt::format("<stop offset=\"{}\" stop-color=\"{}\"/>", k / double{kStops},
+                             viridis(k / double{kStops})));
+    sheet_.add("</linearGradient></defs>\n");
+    sheet_.rectangle(left, top_, width, 12, "url(#palette)");
+    for (const Scale::Tick& tick : shading_.scale->ticks()) {
+      const double x = left + width * (*shading_.scale)(tick.value);
+      sheet_.rectangle(x - 0.5, top_ + 12, 1, 4, kGrey);
+      sheet_.text({x, top_ + 28}, kTickLabels, Anchor::middle, tick.label);
+    }
+    top_ += 36;
+  }
+
+  /// In as many columns as fit.
+  void draw_shades() {
+    const double room = sheet_.width() - 24;
+    std::vector<std::pair<std::string, std::string>> keys;
+    double width = 0;
+    for (const Shade& shade : shading_.shades)
+      if (shade.count > 0) {
+        keys.emplace_back(shade.colour, fmt::format("{} ({})", shade.label, grouped(shade.count)));
+        width = std::max(width, std::min(room, 36 + text_width(keys.back().second, 13)));
+      }
+    const std::size_t columns = std::min(keys.size(), static_cast<std::size_t>(room / width));
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+      const double left = (sheet_.width() - width * static_cast<double>(columns)) / 2;
+      sheet_.key(left + width * static_cast<double>(k % columns), top_, width, keys[k].first, keys[k].second);
+      if (k % columns + 1 == columns || k + 1 == keys.size()) top_ += 20;
+    }
+  }
+
+  void draw_note(const char* colour, const std::string& words) {
+    const double width = std::min(sheet_.width() - 24, 24 + text_width(words, 13));
+    sheet_.key((sheet_.width() - width) / 2, top_, width, colour, words);
+    top_ += 22;
   }
 
   void draw_legend_of_owners() {
@@ -650,13 +595,6 @@ class MeshPicture {
     top_ += 18;
   }
 
-  /// A meridian or parallel, and the ends of its drawn pieces.
-  struct GraticuleLine {
-    bool is_meridian;
-    std::string name;
-    std::vector<Place> ends;
-  };
-
   const Mesh& mesh_;
   const MeshOptions& options_;
   const pstripack::ListReader<std::int32_t> reader_;
@@ -665,14 +603,11 @@ class MeshPicture {
   Sheet sheet_;
   double top_ = 0;  ///< top of the next element
   std::unique_ptr<View> view_;
-  const Orthographic* orthographic_ = nullptr;  ///< view_ if it is orthographic, else null
-  const LonLat* lonlat_ = nullptr;
   Spot centre_{0, 0};
   double radius_ = 90;
-  bool zoomed_ = false;  ///< true if only a part of the sphere is shown
-  int decimals_ = 2;     ///< decimals of degrees in labels
-  std::vector<GraticuleLine> graticule_;
-  Path graticule_path_;
+  int decimals_ = 2;        ///< decimals of degrees in labels
+  double label_width_ = 0;  ///< of the longest label of a meridian or parallel
+  std::vector<Place> labels_;
   Faces faces_;
   Shading shading_;
   std::vector<std::size_t> owner_;  ///< of each node

@@ -3,11 +3,9 @@
 
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "files/mesh.h"
 #include "parallel/partition.h"
-#include "pictures/colours.h"
 #include "pictures/globe.h"
 #include "pictures/view.h"
 
@@ -25,9 +23,8 @@ struct MeshOptions {
   int ranks = 1;  ///< number of ranks, for Colour::owner
   pstripack::PartitionKind partition = pstripack::PartitionKind::bisection;
 
-  std::string value;                               ///< name of a column of the mesh, for Colour::value
-  const Palette* palette = &palettes().front();    ///< of a colour bar
-  std::optional<std::pair<double, double>> range;  ///< its ends; none: those of the values
+  std::string value;  ///< name of a column of the mesh, for Colour::value
+  Range range;        ///< ends of the colour bar; none: those of the values
 
   bool dots = false;  ///< draw all nodes as dots
 

@@ -4,8 +4,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "pictures/font.h"
-
 namespace pictures {
 namespace {
 
@@ -127,6 +125,11 @@ double round_step(double length, int about) {
   for (const int factor : {2, 5, 10})
     if (step < rough && factor * power <= rough * 1.5) step = factor * power;
   return step;
+}
+
+double text_width(const std::string& utf8, double size) {
+  const auto letters = std::count_if(utf8.begin(), utf8.end(), [](char c) { return (c & 0xc0) != 0x80; });
+  return 0.62 * size * static_cast<double>(letters);
 }
 
 std::string grouped(std::size_t number) {

@@ -42,6 +42,9 @@ class Scale {
 /// The step, 1, 2 or 5 times a power of ten, that divides `length` into about `about` steps.
 double round_step(double length, int about);
 
+/// About the width of a line of DejaVu Sans, the font of all pictures, in the unit of `size`.
+double text_width(const std::string& utf8, double size);
+
 /// "10,242"
 std::string grouped(std::size_t number);
 

@@ -7,25 +7,20 @@
 namespace pictures {
 
 Shading shading_of_numbers(const std::vector<double>& values, const std::string& title,
-                           const std::string& unit, const ColourBar& bar) {
+                           const std::string& unit, const Range& range, double width) {
   constexpr std::size_t kShades = 64;
   Shading shading;
   std::vector<double> known;
   std::copy_if(values.begin(), values.end(), std::back_inserter(known),
                [](double v) { return std::isfinite(v); });
   for (std::size_t s = 0; s < kShades; ++s)
-    shading.shades.push_back({(*bar.palette)(static_cast<double>(s) / (kShades - 1)), ""});
+    shading.shades.push_back({viridis(static_cast<double>(s) / (kShades - 1)), ""});
   shading.shades.push_back({kNoColour, "no value", values.size() - known.size()});
   shading.of_face.assign(values.size(), kShades);
   if (known.empty()) return shading;
-  const Scale& scale = shading.scale.emplace(
-      bar.range ? Scale::between(bar.range->first, bar.range->second, kSteps, bar.width, kTickLabels)
-                : Scale::fitting(known, kSteps, bar.width, kTickLabels));
-  if (bar.range)
-    for (const double v : known) {
-      shading.below = shading.below || v < bar.range->first;
-      shading.above = shading.above || v > bar.range->second;
-    }
+  const Scale& scale =
+      shading.scale.emplace(range ? Scale::between(range->first, range->second, kSteps, width, kTickLabels)
+                                  : Scale::fitting(known, kSteps, width, kTickLabels));
   shading.title = title;
   if (const std::string unit_there = scale.name_of_factor() + unit; !unit_there.empty())
     shading.title += ", " + unit_there;

@@ -20,24 +20,20 @@ struct Shade {
 
 struct Shading {
   std::vector<Shade> shades;
-  std::vector<std::size_t> of_face;   ///< the shade of each face; empty: faces have no colour
-  std::optional<Scale> scale;         ///< of the colour bar; none: each shade stands for a category
-  std::string title;                  ///< of the legend
-  bool below = false, above = false;  ///< values lie beyond the ends of the scale
-};
-
-struct ColourBar {
-  const Palette* palette = &palettes().front();
-  std::optional<std::pair<double, double>> range = std::nullopt;  ///< its ends; none: those of the values
-  double width = 400;                                             ///< pixels
+  std::vector<std::size_t> of_face;  ///< the shade of each face; empty: faces have no colour
+  std::optional<Scale> scale;        ///< of the colour bar; none: each shade stands for a category
+  std::string title;                 ///< of the legend
 };
 
 constexpr int kSteps = 6;           ///< steps of a colour bar
 constexpr double kTickLabels = 12;  ///< font size
 constexpr const char* kNoColour = "#e6e6e6";
 
-/// The shades of a colour bar, and behind them that of NaN. `title` and `unit` are for the legend.
+using Range = std::optional<std::pair<double, double>>;
+
+/// The shades of a colour bar so many pixels wide, and behind them that of NaN. `title` and `unit` are for
+/// the legend. `range`: its ends; none: those of the values.
 Shading shading_of_numbers(const std::vector<double>& values, const std::string& title,
-                           const std::string& unit, const ColourBar& bar = {});
+                           const std::string& unit, const Range& range = {}, double width = 400);
 
 }  // namespace pictures

@@ -125,8 +125,10 @@ std::string name_of_latitude(double lat, int decimals) {
   return size + "°" + (size == "0" ? "" : lat < 0 ? "S" : "N");
 }
 
-std::string name_of(const Spot& spot, int decimals) {
-  return name_of_longitude(spot.lon, decimals) + " " + name_of_latitude(spot.lat, decimals);
+/// Half of the longitudes of a cap, in degrees.
+double half_width(const Spot& centre, double radius) {
+  if (std::fabs(centre.lat) + radius >= 90) return 180;
+  return files::kRadian * std::asin(point_sets::sin_degrees(radius) / point_sets::cos_degrees(centre.lat));
 }
 
 // ---- orthographic -----------------------------------------------------------------------------------------
@@ -135,11 +137,16 @@ Orthographic::Orthographic(const Spot& centre, double radius, const Frame& frame
     : eye_(point_sets::from_degrees(centre.lon, centre.lat)),
       east_{-point_sets::sin_degrees(centre.lon), point_sets::cos_degrees(centre.lon), 0},
       north_(cross(eye_, east_)),
-      middle_{(frame.left + frame.right) / 2, (frame.top + frame.bottom) / 2},
-      shows_limb_(radius >= 90) {
+      middle_{(frame.left + frame.right) / 2, (frame.top + frame.bottom) / 2} {
+  is_disc_ = radius >= 90;
   const double half = std::min(frame.width(), frame.height()) / 2;
   frame_ = {middle_.x - half, middle_.y - half, middle_.x + half, middle_.y + half};
-  scale_ = shows_limb_ ? half : half / point_sets::sin_degrees(radius);
+  scale_ = is_disc_ ? half : half / point_sets::sin_degrees(radius);
+  // The corners of the square are farther from the centre than its sides.
+  const double reach = files::kRadian * std::asin(std::min(1.0, std::sqrt(2.0) * half / scale_)),
+               east = half_width(centre, reach);
+  bounds_ = {centre.lon - east, centre.lon + east, std::max(-90.0, centre.lat - reach),
+             std::min(90.0, centre.lat + reach)};
 }
 
 std::optional<Place> Orthographic::place(const Point& p) const {
@@ -156,7 +163,7 @@ void Orthographic::add_arc(const Point& a, const Point& b, Outline& outline, int
   const Place from = on_paper(a), middle = on_paper(m), to = on_paper(b);
   const bool halve =
       depth < kDeepest && (dot(a, b) < kLong || (distance_from_line(middle, from, to) > kStraight &&
-                                                 (shows_limb_ || !misses(from, middle, to, frame_, 0))));
+                                                 (is_disc_ || !misses(from, middle, to, frame_, 0))));
   if (halve) {
     add_arc(a, m, outline, depth + 1);
     add_arc(m, b, outline, depth + 1);
@@ -192,7 +199,7 @@ std::vector<Outline> Orthographic::polygon(const std::vector<Point>& corners) co
   if (seen.size() < 3) return {};
   Outline outline;
   for (std::size_t i = 0; i < seen.size(); ++i) add_arc(seen[i], seen[(i + 1) % seen.size()], outline);
-  if (!shows_limb_) outline = clipped_polygon(outline, frame_);
+  if (!is_disc_) outline = clipped_polygon(outline, frame_);
   if (outline.size() < 3) return {};
   return {outline};
 }
@@ -207,7 +214,7 @@ std::vector<Outline> Orthographic::arc(const Point& a, const Point& b) const {
     q = on_limb(p, q, t);
   Outline line{on_paper(p)};
   add_arc(p, q, line);
-  if (shows_limb_) return {line};
+  if (is_disc_) return {line};
   return clipped_line(line, frame_);
 }
 
@@ -215,29 +222,24 @@ std::vector<Outline> Orthographic::arc(const Point& a, const Point& b) const {
 
 LonLat::LonLat(const Spot& centre, double radius, const Frame& frame) {
   const bool all = radius >= 90;
-  const double squeezed = all ? 1 : std::max(0.05, point_sets::cos_degrees(centre.lat));
-  // Extend as far east and west as a cap of that radius does.
-  const bool pole = all || std::fabs(centre.lat) + radius >= 90;
-  const double half =
-      pole ? 180
-           : files::kRadian * std::asin(std::min(1.0, point_sets::sin_degrees(radius) /
-                                                          point_sets::cos_degrees(centre.lat)));
-  west_ = centre.lon - half, east_ = centre.lon + half;
-  south_ = all ? -90 : std::max(-90.0, centre.lat - radius);
-  north_ = all ? 90 : std::min(90.0, centre.lat + radius);
-  fill(frame, squeezed);
+  const double half = all ? 180 : half_width(centre, radius);
+  bounds_ = {centre.lon - half, centre.lon + half, all ? -90 : std::max(-90.0, centre.lat - radius),
+             all ? 90 : std::min(90.0, centre.lat + radius)};
+  fill(frame, all ? 1 : std::max(0.05, point_sets::cos_degrees(centre.lat)));
 }
 
-LonLat::LonLat(const files::Region& region, const Frame& frame)
-    : west_(region.west), east_(region.east), south_(region.south), north_(region.north) {
-  fill(frame, std::max(0.05, point_sets::cos_degrees((south_ + north_) / 2)));
+LonLat::LonLat(const files::Region& region, const Frame& frame) {
+  bounds_ = region;
+  fill(frame, std::max(0.05, point_sets::cos_degrees((region.south + region.north) / 2)));
 }
 
 void LonLat::fill(const Frame& frame, double squeezed) {
-  per_lat_ = std::min(frame.width() / (squeezed * (east_ - west_)), frame.height() / (north_ - south_));
+  per_lat_ = std::min(frame.width() / (squeezed * (bounds_.east - bounds_.west)),
+                      frame.height() / (bounds_.north - bounds_.south));
   per_lon_ = per_lat_ * squeezed;
-  const double width = per_lon_ * (east_ - west_), middle = (frame.left + frame.right) / 2;
-  frame_ = {middle - width / 2, frame.top, middle + width / 2, frame.top + per_lat_ * (north_ - south_)};
+  const double width = per_lon_ * (bounds_.east - bounds_.west), middle = (frame.left + frame.right) / 2;
+  frame_ = {middle - width / 2, frame.top, middle + width / 2,
+            frame.top + per_lat_ * (bounds_.north - bounds_.south)};
 }
 
 namespace {
@@ -281,15 +283,17 @@ void LonLat::add_arc(const Point& a, const Point& b, std::vector<Point>& points,
 /// Calls visit(longitude of the turn) for each copy of what reaches from `from` to `to` that is in view.
 template <class Visit>
 void LonLat::for_each_turn(double from, double to, const Visit& visit) const {
-  for (double turn = 360 * std::ceil((west_ - to) / 360); from + turn <= east_; turn += 360) visit(turn);
+  for (double turn = 360 * std::ceil((bounds_.west - to) / 360); from + turn <= bounds_.east; turn += 360)
+    visit(turn);
 }
 
 double LonLat::scale() const { return per_lat_ * files::kRadian; }
 
 std::optional<Place> LonLat::place(const Point& p) const {
   Spot s = spot_of(p);
-  s.lon = turned_to(s.lon, (west_ + east_) / 2);
-  if (s.lon < west_ || s.lon > east_ || s.lat < south_ || s.lat > north_) return std::nullopt;
+  s.lon = turned_to(s.lon, (bounds_.west + bounds_.east) / 2);
+  if (s.lon < bounds_.west || s.lon > bounds_.east || s.lat < bounds_.south || s.lat > bounds_.north)
+    return std::nullopt;
   return on_paper(s);
 }
 
@@ -299,7 +303,7 @@ std::vector<Outline> LonLat::polygon(const std::vector<Point>& corners) const {
     add_arc(corners[i], corners[(i + 1) % corners.size()], points);
   files::MapRing ring;
   for (const Point& p : points) ring.push_back({p, spot_of(p).lon, spot_of(p).lat});
-  ring = files::unrolled(ring, west_);
+  ring = files::unrolled(ring, bounds_.west);
   std::vector<Outline> parts;
   if (ring.empty()) return parts;
   const auto [low, high] = std::minmax_element(ring.begin(), ring.end(),

@@ -32,8 +32,7 @@ struct Spot {
   double lon, lat;
 };
 Spot spot_of(const Point& p);
-/// "12.5°W 40°N"
-std::string name_of(const Spot& spot, int decimals = 2);
+/// "12.5°W", "40°N"
 std::string name_of_longitude(double lon, int decimals = 2);
 std::string name_of_latitude(double lat, int decimals = 2);
 
@@ -44,6 +43,10 @@ class View {
 
   /// The rectangle that the view fills, or whose inscribed circle it fills.
   const Frame& frame() const { return frame_; }
+  /// What it shows, or somewhat more.
+  const files::Region& bounds() const { return bounds_; }
+  /// Its border is a circle.
+  bool is_disc() const { return is_disc_; }
 
   /// Pixels per radian, northwards from the middle of the picture.
   virtual double scale() const = 0;
@@ -56,6 +59,8 @@ class View {
 
  protected:
   Frame frame_{};
+  files::Region bounds_;
+  bool is_disc_ = false;
 };
 
 /// The view from infinitely far above `centre`, up to `radius` degrees around it; at most 90, half of the
@@ -79,7 +84,6 @@ class Orthographic : public View {
   Point eye_, east_, north_;
   Place middle_;
   double scale_;
-  bool shows_limb_;
 };
 
 /// Longitude to the right, latitude upwards, in equal steps. It shows the bounding rectangle of the cap of
@@ -91,14 +95,7 @@ class LonLat : public View {
   /// Shows this region, at the scale of its middle latitude.
   LonLat(const files::Region& region, const Frame& frame);
 
-  double west() const { return west_; }
-  double east() const { return east_; }
-  double south() const { return south_; }
-  double north() const { return north_; }
   double scale() const override;
-  Place on_paper(const Spot& s) const {
-    return {frame_.left + (s.lon - west_) * per_lon_, frame_.bottom - (s.lat - south_) * per_lat_};
-  }
 
   std::optional<Place> place(const Point& p) const override;
   std::vector<Outline> polygon(const std::vector<Point>& corners) const override;
@@ -106,12 +103,14 @@ class LonLat : public View {
 
  private:
   void fill(const Frame& frame, double squeezed);
-
+  Place on_paper(const Spot& s) const {
+    return {frame_.left + (s.lon - bounds_.west) * per_lon_,
+            frame_.bottom - (s.lat - bounds_.south) * per_lat_};
+  }
   void add_arc(const Point& a, const Point& b, std::vector<Point>& points, int depth = 0) const;
   template <class Visit>
   void for_each_turn(double from, double to, const Visit& visit) const;
 
-  double west_, east_, south_, north_;
   double per_lon_, per_lat_;  ///< pixels per degree
 };
 

@@ -26,7 +26,7 @@ struct Options {
   Input input;
   std::string file, to, what = "triangles", view, colour = "none";
   std::optional<double> zoom;
-  std::string box, range, palette;
+  std::string box, range;
   bool dots = false;
   bool coasts = false;
   std::string coast_file;
@@ -88,19 +88,12 @@ void set_box(const Options& options, MeshOptions& mesh) {
         "--box", "it is a map of longitude and latitude: leave out --zoom, and other views than lonlat");
 }
 
-/// Sets --range and --palette.
-void set_scale(const Options& options, MeshOptions& mesh) {
-  const bool has_bar = mesh.colour == MeshOptions::Colour::size || mesh.colour == MeshOptions::Colour::value;
-  for (const auto& [name, value] : {std::pair("--range", options.range), {"--palette", options.palette}})
-    if (!value.empty() && !has_bar)
-      throw CLI::ValidationError(name, "a colour bar is needed: --colour area or a column of numbers");
-  if (!options.palette.empty())
-    mesh.palette = &*std::find_if(pictures::palettes().begin(), pictures::palettes().end(),
-                                  [&](const pictures::Palette& p) { return p.name == options.palette; });
-  if (options.range.empty()) return;
-  const std::vector<double> ends = numbers_in("--range", options.range, ',', 2);
+void set_range(const std::string& text, MeshOptions& mesh) {
+  if (mesh.colour != MeshOptions::Colour::size && mesh.colour != MeshOptions::Colour::value)
+    throw CLI::ValidationError("--range", "a colour bar is needed: --colour area or a column of numbers");
+  const std::vector<double> ends = numbers_in("--range", text, ',', 2);
   if (!(ends[0] < ends[1] && ends[1] - ends[0] > 1e-9 * std::fabs(ends[1])))
-    throw CLI::ValidationError("--range", "'" + options.range + "': expected LOW,HIGH, the lower first");
+    throw CLI::ValidationError("--range", "'" + text + "': expected LOW,HIGH, the lower first");
   mesh.range = {ends[0], ends[1]};
 }
 
@@ -131,7 +124,7 @@ void plot(Options& options) {
   if (!options.view.empty()) set_view(options.view, mesh_options);
   set_colour(options.colour, mesh_options);
   if (!options.box.empty()) set_box(options, mesh_options);
-  set_scale(options, mesh_options);
+  if (!options.range.empty()) set_range(options.range, mesh_options);
   mesh_options.radius = options.zoom;
   mesh_options.width = options.width.value_or(kWidth);
   if (mesh_options.colour == MeshOptions::Colour::degree && mesh_options.what != MeshOptions::What::cells)
@@ -216,11 +209,6 @@ void add_plot(CLI::App& app, Command& chosen) {
       ->capture_default_str();
   sub->add_option("--range", options->range, "ends of the colour bar [those of the values]")
       ->type_name("LOW,HIGH");
-  std::vector<std::string> palettes;
-  for (const pictures::Palette& palette : pictures::palettes()) palettes.emplace_back(palette.name);
-  sub->add_option("--palette", options->palette, fmt::format("{} [viridis]", fmt::join(palettes, ", ")))
-      ->type_name("NAME")
-      ->check(one_of(palettes));
   sub->add_flag("--dots", options->dots, "also draw the nodes, as dots");
   sub->add_flag("--coasts", options->coasts, "coast lines of Natural Earth, from Debian's libmagics++-data");
   sub->add_option("--coast-file", options->coast_file, "coast lines of this shapefile instead")
@@ -233,7 +221,7 @@ void add_plot(CLI::App& app, Command& chosen) {
   pstripack plot nodes.txt --view orthographic:10,45 --zoom 5 -o zoom.png --width 1600
   pstripack plot nodes.txt --what cells --colour area -o cells.svg
   pstripack plot quakes.csv --what cells --colour mag --coasts --view lonlat -o quakes.svg
-  pstripack plot quakes.csv --what cells --colour mag --range 2,7 --palette magma --dots --box 170,-170,-30,-10 -o fiji.svg
+  pstripack plot quakes.csv --what cells --colour mag --range 2,7 --dots --box 170,-170,-30,-10 -o fiji.svg
   pstripack plot quakes.csv --what cells --colour mag --coasts -o globe.html
 
 Colours:

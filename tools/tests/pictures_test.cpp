@@ -9,12 +9,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <sstream>
 
 #include "files/measures.h"
 #include "pictures/coasts.h"
 #include "pictures/colours.h"
-#include "pictures/font.h"
 #include "pictures/mesh_picture.h"
 #include "pictures/scale.h"
 #include "pictures/svg.h"
@@ -76,31 +76,26 @@ Mesh mesh_of_family(const std::string& family, std::size_t n) {
 const char* const kFamilies[] = {"random",       "fibonacci",   "latlon",
                                  "cubed-sphere", "icosahedral", "variable:10"};
 
-TEST(lonlat, faces_cover_the_map_once) {
+TEST(lonlat, faces_cover_the_map_or_a_part_of_it_once) {
+  struct Window {
+    Spot centre;
+    double radius;
+  };
   for (const char* family : kFamilies)
-    for (const std::size_t n : {20, 60, 800}) {
+    for (const std::size_t n : {20, 800}) {
       const Mesh mesh = mesh_of_family(family, n);
-      for (const double lon : {0.0, 77.7, -180.0, 45.0}) {
-        const LonLat map({lon, 0}, 90, kPaper);
-        EXPECT_NEAR(map.frame().width(), 720, 1e-9);
-        EXPECT_NEAR(map.frame().height(), 360, 1e-9);
-        // 2 pixels a degree: 360 x 180 degrees. Pieces are straight to 0.05 pixels on both sides alike.
-        EXPECT_NEAR(area_of_all(polygons_of(files::triangle_faces(mesh)), map), 720 * 360, 1e-3)
-            << family << " " << n << " " << lon;
-        EXPECT_NEAR(area_of_all(polygons_of(files::voronoi_faces(mesh)), map), 720 * 360, 1e-3)
-            << family << " " << n << " " << lon << ", cells";
+      for (const Window w : {Window{{0, 0}, 90},
+                             {{77.7, 0}, 90},
+                             {{-180, 0}, 90},
+                             {{175, 40}, 3},
+                             {{-100, -85}, 20},
+                             {{180, 90}, 60}}) {
+        const LonLat map(w.centre, w.radius, kPaper);
+        // Pieces are straight to 0.05 pixels on both sides alike.
+        for (const Faces& faces : {files::triangle_faces(mesh), files::voronoi_faces(mesh)})
+          EXPECT_NEAR(area_of_all(polygons_of(faces), map), map.frame().width() * map.frame().height(), 1e-3)
+              << family << " " << n << " " << w.centre.lon << " " << w.radius;
       }
-    }
-}
-
-TEST(lonlat, faces_cover_a_part_of_the_map_once) {
-  const Mesh mesh = mesh_of_family("random", 300);
-  for (const Spot centre : {Spot{0, 0}, Spot{175, 40}, Spot{-100, -85}, Spot{180, 90}})
-    for (const double radius : {3.0, 20.0, 60.0}) {
-      const LonLat map(centre, radius, kPaper);
-      EXPECT_NEAR(area_of_all(polygons_of(files::triangle_faces(mesh)), map),
-                  map.frame().width() * map.frame().height(), 1e-3)
-          << centre.lon << " " << centre.lat << " " << radius;
     }
 }
 
@@ -139,26 +134,19 @@ TEST(lonlat, an_arc_over_the_antimeridian_is_cut_there) {
   EXPECT_NEAR(ends[0], ends[1], 1e-9);
 }
 
-TEST(orthographic, faces_cover_the_disc_once) {
+TEST(orthographic, faces_cover_the_disc_or_a_part_of_it_once) {
   for (const char* family : kFamilies)
-    for (const std::size_t n : {20, 60, 800})
+    for (const std::size_t n : {20, 800})
       for (const Spot eye : {Spot{0, 30}, Spot{0, 0}, Spot{45, 90}, Spot{-90, -45}}) {
-        const Orthographic sphere(eye, 90, kPaper);
-        EXPECT_NEAR(sphere.scale(), 360, 1e-9);
+        const Orthographic sphere(eye, 90, kPaper), part(eye, 30, kPaper);
         const Mesh mesh = mesh_of_family(family, n);
-        // Straight pieces of the limb miss at most 2/3 of 0.05 pixels along 2 pi 360 pixels.
-        for (const Faces& faces : {files::triangle_faces(mesh), files::voronoi_faces(mesh)})
+        for (const Faces& faces : {files::triangle_faces(mesh), files::voronoi_faces(mesh)}) {
+          // Straight pieces of the limb miss at most 2/3 of 0.05 pixels along 2 pi 360 pixels.
           EXPECT_NEAR(area_of_all(polygons_of(faces), sphere) / (360 * 360), kPi, 6e-4)
               << family << " " << n << " " << eye.lon << " " << eye.lat;
+          EXPECT_NEAR(area_of_all(polygons_of(faces), part), 720 * 720, 1e-3);
+        }
       }
-}
-
-TEST(orthographic, faces_cover_a_part_of_the_sphere_once) {
-  const Mesh mesh = mesh_of_family("random", 500);
-  for (const double radius : {0.01, 1.0, 30.0}) {
-    const Orthographic part({12, 55}, radius, kPaper);
-    EXPECT_NEAR(area_of_all(polygons_of(files::triangle_faces(mesh)), part), 720 * 720, 1e-3);
-  }
 }
 
 TEST(orthographic, arcs_end_at_the_limb_and_hidden_ones_are_not_drawn) {
@@ -201,10 +189,11 @@ TEST(views, pieces_of_an_arc_look_straight) {
   }
 }
 
-TEST(views, name_their_spots) {
-  EXPECT_EQ(name_of({-12.5, 40}), "12.5°W 40°N");
-  EXPECT_EQ(name_of({190, -0.25}), "170°W 0.25°S");
-  EXPECT_EQ(name_of({540, 0}), "180° 0°");
+TEST(views, name_longitudes_and_latitudes) {
+  EXPECT_EQ(name_of_longitude(-12.5), "12.5°W");
+  EXPECT_EQ(name_of_longitude(190), "170°W");
+  EXPECT_EQ(name_of_longitude(540), "180°");
+  EXPECT_EQ(name_of_latitude(-0.25), "0.25°S");
 }
 
 // ---- scales, colours ----
@@ -251,18 +240,9 @@ TEST(scale, has_round_ticks_in_its_range_that_are_labelled_with_their_values) {
 
 TEST(scale, has_fewer_ticks_where_labels_are_wide) {
   const std::vector<double> wide{1.6e9, 1.6e9 + 300};
-  const std::size_t all = Scale(wide, 6).ticks().size();
   const Scale fitting = Scale::fitting(wide, 6, 200, 12);
-  EXPECT_LT(fitting.ticks().size(), all);
-  double widths = 0;
-  for (const Scale::Tick& tick : fitting.ticks()) widths += text_width(tick.label, 12);
-  EXPECT_LT(widths, 2 * 200);
-  // The sum or difference of these numbers overflows.
-  for (const auto& values :
-       std::vector<std::vector<double>>{{-1.7e308, 1.7e308}, {5e-324, 1.7e308}, {0, 5e-324}}) {
-    const Scale scale(values, 6);
-    for (const Scale::Tick& tick : scale.ticks()) EXPECT_TRUE(std::isfinite(tick.value)) << values[0];
-  }
+  EXPECT_LT(fitting.ticks().size(), Scale(wide, 6).ticks().size());
+  EXPECT_TRUE(std::isfinite(Scale({-1.7e308, 1.7e308}, 6).ticks()[1].value));  // the difference overflows
 }
 
 TEST(scale, between_given_ends_has_round_ticks_that_need_not_be_the_ends) {
@@ -279,27 +259,18 @@ TEST(scale, between_given_ends_has_round_ticks_that_need_not_be_the_ends) {
   EXPECT_EQ(decades.ticks().front().value, 10);
 }
 
-TEST(fonts, text_is_shortened_in_its_middle) {
-  EXPECT_EQ(shortened("short", 12, 100), "short");
-  const std::string text = "123456789·abcdefghi", cut = shortened(text, 10, 80);
-  EXPECT_LE(text_width(cut, 10), 80);
-  EXPECT_EQ(cut.substr(0, 3), "123");
-  EXPECT_EQ(cut.substr(cut.size() - 3), "ghi");
-  EXPECT_NE(cut.find("…"), std::string::npos);
-}
-
 TEST(colours, of_neighbours_differ) {
   // A wheel: eight in a ring, each beside the two next to it and the hub.
-  std::vector<std::vector<std::size_t>> beside(9);
+  std::vector<std::set<std::size_t>> beside(9);
   for (std::size_t i = 0; i < 8; ++i) {
     beside[i] = {(i + 1) % 8, (i + 7) % 8, 8};
-    beside[8].push_back(i);
+    beside[8].insert(i);
   }
   const std::vector<std::string> colours = distinct_colours(beside);
   for (std::size_t i = 0; i < beside.size(); ++i)
     for (const std::size_t other : beside[i]) EXPECT_NE(colours[i], colours[other]);
-  EXPECT_EQ(palettes()[0](0), "#440154");
-  EXPECT_EQ(palettes()[0](1), "#fde725");
+  EXPECT_EQ(viridis(0), "#440154");
+  EXPECT_EQ(viridis(1), "#fde725");
 }
 
 // ---- whole pictures ----
@@ -320,28 +291,28 @@ std::size_t count(const std::string& text, const std::string& what) {
 TEST(mesh_picture, of_every_kind_is_well_formed_and_without_nan) {
   using Colour = MeshOptions::Colour;
   using What = MeshOptions::What;
-  for (const char* family : {"random", "latlon", "cap", "hemisphere-rim", "clusters", "ring"})
-    for (const std::size_t n : {5, 100}) {
-      const Mesh mesh = mesh_of_family(family, n);
-      for (const What what : {What::triangles, What::cells})
-        for (const Colour colour : {Colour::none, Colour::size, Colour::degree, Colour::owner})
-          for (const bool lonlat : {false, true}) {
-            if (what == What::triangles && colour == Colour::degree) continue;
-            MeshOptions options;
-            options.what = what;
-            options.colour = colour;
-            options.ranks = 3;
-            options.lonlat = lonlat;
-            options.title = "a < b & \"c\"";
-            options.width = 400;
-            const std::string svg = mesh_picture(mesh, options);
-            const auto tree = parsed(svg);
-            EXPECT_EQ(tree.get<double>("svg.<xmlattr>.width"), 400);
-            EXPECT_EQ(count(svg, "nan"), 0u) << family << n;
-            EXPECT_EQ(count(svg, "inf"), 0u) << family << n;
-            EXPECT_EQ(count(svg, "a &lt; b &amp; &quot;c&quot;"), 1u);
-          }
-    }
+  for (const char* family : {"latlon", "hemisphere-rim", "cap", "ring"})
+    for (const auto& [what, colour] : {std::pair(What::triangles, Colour::none),
+                                       {What::triangles, Colour::size},
+                                       {What::triangles, Colour::owner},
+                                       {What::cells, Colour::none},
+                                       {What::cells, Colour::size},
+                                       {What::cells, Colour::degree},
+                                       {What::cells, Colour::owner}})
+      for (const bool lonlat : {false, true})
+        for (const std::size_t n : {5, 100}) {
+          MeshOptions options;
+          options.what = what;
+          options.colour = colour;
+          options.ranks = 3;
+          options.lonlat = lonlat;
+          options.title = "a < b & \"c\"";
+          const std::string svg = mesh_picture(mesh_of_family(family, n), options);
+          parsed(svg);
+          EXPECT_EQ(count(svg, "nan") + count(svg, "inf"), 0u) << family << n;
+          EXPECT_EQ(count(svg, "a &lt; b &amp; &quot;c&quot;"), 1u);
+          EXPECT_EQ(count(svg, "boundary nodes"), family[0] == 'l' ? 0u : 1u) << family << n;
+        }
 }
 
 TEST(mesh_picture, counts_neighbours_and_nodes_of_ranks_in_its_legend) {
@@ -383,13 +354,11 @@ TEST(mesh_picture, has_the_colours_of_a_column) {
   options.value = "depth";
   const std::string numbers = mesh_picture(mesh, options);
   EXPECT_EQ(count(numbers, ">depth of the sea, km<"), 1u);
+  EXPECT_EQ(count(numbers, "boundary"), 0u);
   EXPECT_EQ(count(numbers, ">no value: 12 cells<"), 1u);
-  EXPECT_EQ(fills(numbers), (std::vector<std::string>{palettes()[0](0), palettes()[0](1), "#e6e6e6"}));
-  options.range = {12, 20};  // the other ends of the bar are pointed where values lie beyond
-  options.palette = &palettes()[1];
-  const std::string beyond = mesh_picture(mesh, options);
-  EXPECT_EQ(fills(beyond),
-            (std::vector<std::string>{palettes()[1](0), palettes()[1](1), "#e6e6e6", palettes()[1](0)}));
+  EXPECT_EQ(fills(numbers), (std::vector<std::string>{viridis(0), viridis(1), "#e6e6e6"}));
+  options.range = {12, 20};
+  EXPECT_EQ(fills(mesh_picture(mesh, options)), fills(numbers));
   options.value = "kind";
   EXPECT_THROW(mesh_picture(mesh, options), std::runtime_error);
   options.range.reset();
@@ -430,19 +399,20 @@ TEST(mesh_picture, has_areas_in_km2_and_when_zoomed_a_scale_and_coordinates) {
   EXPECT_EQ(count(mesh_picture(mesh, options), ">1,000 km at 50°N<"), 1u);
 }
 
-TEST(mesh_picture, narrow_has_texts_as_large_as_a_wide_one) {
-  const Mesh mesh = mesh_of_family("icosahedral", 162);
+TEST(mesh_picture, narrow_has_texts_as_large_as_a_wide_one_and_a_long_title_fits) {
   MeshOptions options;
-  options.title = "title";
-  options.colour = MeshOptions::Colour::size;
   for (const double width : {330.0, 800.0, 1600.0}) {
     options.width = width;
-    const auto tree = parsed(mesh_picture(mesh, options));
+    options.title = "title";
+    const auto tree = parsed(mesh_picture(mesh_of_family("icosahedral", 42), options));
     EXPECT_EQ(tree.get<double>("svg.<xmlattr>.width"), width);
     EXPECT_EQ(tree.get<std::string>("svg.<xmlattr>.viewBox").substr(0, 8),
               width < 800 ? "0 0 330 " : "0 0 800 ");
     EXPECT_EQ(tree.get<double>("svg.text.<xmlattr>.font-size"), 18);
   }
+  options.title = std::string(200, 'm');
+  const auto tree = parsed(mesh_picture(mesh_of_family("icosahedral", 42), options));
+  EXPECT_LE(text_width(options.title, tree.get<double>("svg.text.<xmlattr>.font-size")), 800);
 }
 
 TEST(mesh_picture, of_a_region_shows_it_and_its_nodes_as_dots) {
@@ -459,14 +429,6 @@ TEST(mesh_picture, of_a_region_shows_it_and_its_nodes_as_dots) {
   });
   EXPECT_EQ(count(mesh_picture(mesh, options), "h0") - count(without, "h0"),
             2 * static_cast<std::size_t>(in_region));
-}
-
-TEST(mesh_picture, marks_the_boundary_of_a_part_of_the_sphere) {
-  MeshOptions options;
-  EXPECT_EQ(count(mesh_picture(mesh_of_family("random", 100), options), "boundary"), 0u);
-  EXPECT_EQ(
-      count(mesh_picture(files::triangulate({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}), options), "3 boundary nodes"),
-      1u);
 }
 
 TEST(mesh_picture, of_too_many_nodes_in_view_says_how_to_zoom) {
@@ -536,21 +498,11 @@ TEST(coasts, are_those_of_the_shapefile_without_its_cuts) {
   EXPECT_EQ(count(mesh_picture(mesh, options), "#1c1c1c"), 0u);
 }
 
-TEST(coasts, of_a_file_that_is_damaged_are_refused) {
+TEST(coasts, of_a_file_that_is_cut_short_are_refused) {
   const Shapefile file({{{10, 40}, {12, 40}, {12, 42}, {10, 40}}});
   EXPECT_TRUE(file.read(100).empty());  // a header alone
   for (std::size_t size = 0; size < file.bytes.size(); size += size == 99 ? 2 : 1)
     EXPECT_THROW(file.read(size), std::runtime_error) << size;
-  for (std::size_t at = 100; at < file.bytes.size(); ++at)
-    for (const int value : {0x7f, 0xff}) {
-      Shapefile changed = file;
-      changed.bytes[at] = static_cast<char>(value);
-      try {
-        for (const auto& line : changed.read()) EXPECT_LE(line.size(), 4u);
-      } catch (const std::runtime_error& e) {
-        EXPECT_NE(std::string(e.what()).find("coast.shp: not a shapefile (.shp) of"), std::string::npos);
-      }
-    }
 }
 
 TEST(coasts, of_natural_earth_are_as_fine_as_needed_or_there_is_a_remedy) {
