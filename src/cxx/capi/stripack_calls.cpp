@@ -13,8 +13,6 @@
 #include <stdint.h>
 
 #include <cstdio>
-#include <exception>
-#include <new>
 
 #include "base/floating_point.h"
 #include "capi/plain_calls.h"

@@ -1,7 +1,6 @@
 #include "geometry/insertion_order.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <numeric>

@@ -10,7 +10,6 @@
 //                       they count as little.
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "mesh/validate.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <utility>
 #include <vector>

@@ -20,7 +20,6 @@
 #include <string>
 
 #include "base/environment.h"
-#include "base/system.h"
 #include "base/transfer.h"
 #include "lists/limits.h"
 #include "observe/recorded_block.h"

@@ -1,12 +1,10 @@
 #pragma once
 // How ranks agree: on whether all of them could do something, and on what holds for all of them together.
 
-#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <exception>
 #include <limits>
-#include <vector>
 
 #include "parallel/communicator.h"
 

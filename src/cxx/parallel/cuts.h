@@ -8,7 +8,6 @@
 //          |    |   | | ||| | |   |    |        have what lies farther off, too.
 //                        cut
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>

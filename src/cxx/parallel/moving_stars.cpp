@@ -10,13 +10,10 @@
 #include "parallel/moving_stars.h"
 
 #include <algorithm>
-#include <atomic>
-#include <cstdlib>
 #include <numeric>
 #include <unordered_map>
 #include <utility>
 
-#include "base/parallel_for.h"
 #include "parallel/agreement.h"
 
 namespace pstripack {

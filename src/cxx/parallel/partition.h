@@ -12,8 +12,6 @@
 //     |   :   |   :   |      So the margin is thin where nodes are dense.
 //     +-------+-------+
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>

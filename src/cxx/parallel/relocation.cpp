@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <utility>
 
 #include "parallel/agreement.h"
 #include "parallel/halo.h"

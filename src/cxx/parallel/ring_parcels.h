@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
 #include "parallel/parcels.h"
 #include "parallel/return_rings.h"

@@ -1,7 +1,6 @@
 #include "parallel/sample.h"
 
 #include <algorithm>
-#include <cstdint>
 
 #include "base/splitmix64.h"
 

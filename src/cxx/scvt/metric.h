@@ -27,7 +27,6 @@
 // Colorado CU-CS-982-04, 2004; for centroidal tessellations, with a graph Laplacian, Hateley, Wei and Chen,
 // J. Sci. Comput. 63, 2015.)
 
-#include <cstddef>
 #include <vector>
 
 #include "parallel/halo.h"

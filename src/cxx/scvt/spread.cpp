@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 #include <tuple>
-#include <utility>
 
 #include "geometry/hilbert_curve.h"
 #include "parallel/agreement.h"

@@ -4,7 +4,6 @@
 // always return.
 
 #include <algorithm>
-#include <cstdint>
 
 #include "stripack/coordinates_and_areas.h"
 #include "stripack/expressions.h"

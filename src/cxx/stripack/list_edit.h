@@ -6,7 +6,6 @@
 // For Int = int32_t, int64_t. Nodes and slots count from 1; k is the node that is added.
 
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 
 #include "capi/pstripack.h"

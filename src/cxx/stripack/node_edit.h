@@ -4,7 +4,6 @@
 // nothing and always return.
 
 #include <algorithm>
-#include <cstdint>
 
 #include "stripack/arc_edit.h"
 #include "stripack/coordinates_and_areas.h"

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <utility>
-#include <vector>
 
 #include "base/parallel_for.h"
 #include "capi/pstripack.h"
