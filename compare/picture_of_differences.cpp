@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <optional>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -83,38 +83,31 @@ bool in_panel(const Place& p) { return p.x >= 0 && p.x <= kPanel && p.y >= 0 && 
 
 /// The arcs whose bounding box intersects the panel, in increasing order.
 std::vector<Arc> arcs_in_view(const Triangles& triangles, const View& view) {
-  std::vector<Arc> arcs;
+  std::set<Arc> arcs;
   for (const auto& t : triangles)
     for (int i = 0; i < 3; ++i) {
-      const index_t u = std::min(t[i], t[(i + 1) % 3]), v = std::max(t[i], t[(i + 1) % 3]);
+      const auto [u, v] = std::minmax(t[i], t[(i + 1) % 3]);
       if (!view.in_front(view.point(u)) || !view.in_front(view.point(v))) continue;
       const Place a = view(u), b = view(v);
       if (std::max(a.x, b.x) >= 0 && std::min(a.x, b.x) <= kPanel && std::max(a.y, b.y) >= 0 &&
           std::min(a.y, b.y) <= kPanel)
-        arcs.emplace_back(u, v);
+        arcs.emplace(u, v);
     }
-  std::sort(arcs.begin(), arcs.end());
-  arcs.erase(std::unique(arcs.begin(), arcs.end()), arcs.end());
-  return arcs;
+  return {arcs.begin(), arcs.end()};
 }
 
-/// Adds an arc in pieces short enough to show its curvature.
-void add(const Arc& arc, const View& view, Path& path) {
-  const Point a = normalized(view.point(arc.first)), b = normalized(view.point(arc.second));
-  const int pieces = 1 + static_cast<int>(std::acos(std::clamp(dot(a, b), -1.0, 1.0)) / 0.05);
-  for (int i = 0; i <= pieces; ++i) {
-    const double t = static_cast<double>(i) / pieces;
-    const Place p = view(Point{(1 - t) * a.x + t * b.x, (1 - t) * a.y + t * b.y, (1 - t) * a.z + t * b.z});
-    if (i == 0)
-      path.move(p);
-    else
-      path.line(p);
-  }
-}
-
+/// The arcs, in pieces short enough to show their curvature.
 std::string drawn(const std::vector<Arc>& arcs, const View& view, const char* kind) {
   Path path;
-  for (std::size_t i = 0; i < std::min(arcs.size(), kMostArcs); ++i) add(arcs[i], view, path);
+  for (std::size_t k = 0; k < std::min(arcs.size(), kMostArcs); ++k) {
+    const Point a = normalized(view.point(arcs[k].first)), b = normalized(view.point(arcs[k].second));
+    const int pieces = 1 + static_cast<int>(std::acos(std::clamp(dot(a, b), -1.0, 1.0)) / 0.05);
+    path.move(view(a));
+    for (int i = 1; i <= pieces; ++i) {
+      const double t = static_cast<double>(i) / pieces;
+      path.line(view(Point{(1 - t) * a.x + t * b.x, (1 - t) * a.y + t * b.y, (1 - t) * a.z + t * b.z}));
+    }
+  }
   return path.empty() ? ""
                       : fmt::format("<path class=\"{}{}\" d=\"{}\"/>\n", kind,
                                     arcs.size() > 100 ? " many" : "", path.data());
@@ -133,60 +126,25 @@ std::string deciding_circle(const std::vector<index_t>& nodes, const View& view)
                      a.y + y, radius);
 }
 
-/// Finds places for node numbers that do not overlap.
-class Labels {
- public:
-  /// Where the text for the node at p begins; none if no place is free.
-  std::optional<Place> place(const Place& p, const std::string& digits, double size) {
-    constexpr double kDigit = 0.64;  // width of a digit of DejaVu Sans, in heights of the font
-    const double width = kDigit * size * static_cast<double>(digits.size()), gap = 4, ascent = 0.73 * size;
-    for (const double x : {p.x + gap, p.x - gap - width, p.x - width / 2})
-      for (const double y : {p.y - gap, p.y + gap + ascent, p.y + ascent / 2}) {
-        const Box box{{x - 1, y - ascent - 1}, {x + width + 1, y + 1}};
-        if (overlap(box, {p, p}) || !in_panel(box.low) || !in_panel(box.high) ||
-            std::any_of(taken_.begin(), taken_.end(), [&](const Box& t) { return overlap(t, box); }))
-          continue;
-        taken_.push_back(box);
-        return Place{x, y};
-      }
-    return std::nullopt;
-  }
-
- private:
-  struct Box {
-    Place low, high;
-  };
-  static bool overlap(const Box& a, const Box& b) {
-    return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y;
-  }
-  std::vector<Box> taken_;
-};
-
+/// The deciding nodes, and the others if they are few, with their numbers.
 std::string numbers(const std::vector<Arc>& arcs, const std::vector<index_t>& deciding, const View& view) {
-  std::vector<index_t> nodes;
-  for (const Arc& arc : arcs) nodes.insert(nodes.end(), {arc.first, arc.second});
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  const auto outside = [&](index_t node) {
-    return !in_panel(view(node)) || std::count(deciding.begin(), deciding.end(), node) > 0;
-  };
-  nodes.erase(std::remove_if(nodes.begin(), nodes.end(), outside), nodes.end());
-  if (nodes.size() > kMostNumbers) nodes.clear();
+  std::set<index_t> others;
+  for (const Arc& arc : arcs)
+    for (const index_t node : {arc.first, arc.second})
+      if (in_panel(view(node))) others.insert(node);
+  for (const index_t node : deciding) others.erase(node);
+  if (others.size() > kMostNumbers) others.clear();
 
-  Labels labels;
   std::string text;
-  const auto write = [&](index_t node, const char* kind, double radius, double size) {
+  const auto write = [&](index_t node, const char* kind, double radius) {
     const Place p = view(node);
-    const std::string number = std::to_string(node + 1);
-    text +=
-        fmt::format("<circle class=\"{}\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{}\"/>\n", kind, p.x, p.y, radius);
-    if (const auto at = labels.place(p, number, size))
-      text +=
-          fmt::format("<text class=\"{}\" x=\"{:.2f}\" y=\"{:.2f}\">{}</text>\n", kind, at->x, at->y, number);
+    text += fmt::format(
+        "<circle class=\"{0}\" cx=\"{1:.2f}\" cy=\"{2:.2f}\" r=\"{3}\"/>\n"
+        "<text class=\"{0}\" x=\"{1:.2f}\" y=\"{2:.2f}\" dx=\"4\" dy=\"-4\">{4}</text>\n",
+        kind, p.x, p.y, radius, node + 1);
   };
-  constexpr double kBold = 1.15;  // bold text is wider
-  for (const index_t node : deciding) write(node, "decided", 3, 12 * kBold);
-  for (const index_t node : nodes) write(node, "node", 1.5, 9);
+  for (const index_t node : others) write(node, "node", 1.5);
+  for (const index_t node : deciding) write(node, "decided", 3);
   return text;
 }
 

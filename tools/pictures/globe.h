@@ -1,5 +1,5 @@
 #pragma once
-// A globe to turn: one HTML file with the mesh and the script of globe.html.
+// A globe to turn: one HTML file with the mesh and the script globe.js.
 
 #include <array>
 #include <cstdint>

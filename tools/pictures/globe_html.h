@@ -2,6 +2,6 @@
 
 namespace pictures {
 
-extern const char* const kGlobeHtml;  ///< the text of globe.html
+extern const char* const kGlobeHtml;  ///< the text of globe.html, with globe.js in it
 
 }  // namespace pictures

@@ -491,28 +491,19 @@ class MeshPicture {
     top_ += 24;
   }
 
-  /// Draws the number of each rank at its node in the middle of its visible nodes, if most of them are
-  /// visible.
+  /// Draws the number of each rank in the middle of its nodes.
   void draw_ranks() {
-    constexpr int kMostNumbers = 100;
-    constexpr double kNumber = 15;
-    if (options_.colour != Colour::owner || options_.ranks > kMostNumbers) return;
-    const auto ranks = static_cast<std::size_t>(options_.ranks);
-    std::vector<std::vector<Place>> places(ranks);
-    for (std::size_t i = 0; i < nodes_.size(); ++i)
-      if (const auto place = view_->place(nodes_[i])) places[owner_[i]].push_back(*place);
-    sheet_.add("<g stroke=\"#ffffff\" stroke-width=\"3\" paint-order=\"stroke\" font-weight=\"bold\">\n");
-    for (std::size_t rank = 0; rank < ranks; ++rank) {
-      Place middle{0, 0};
-      const auto count = static_cast<double>(places[rank].size());
-      for (const Place& p : places[rank]) middle.x += p.x / count, middle.y += p.y / count;
-      const auto from_middle = [&](const Place& p) { return std::hypot(p.x - middle.x, p.y - middle.y); };
-      const auto nearest =
-          std::min_element(places[rank].begin(), places[rank].end(),
-                           [&](const Place& p, const Place& q) { return from_middle(p) < from_middle(q); });
-      if (2 * places[rank].size() > shading_.shades[rank].count)
-        sheet_.text({nearest->x, nearest->y + 5}, kNumber, Anchor::middle, std::to_string(rank));
+    constexpr std::size_t kMostNumbers = 100;
+    if (options_.colour != Colour::owner || shading_.shades.size() > kMostNumbers) return;
+    std::vector<Point> sums(shading_.shades.size(), Point{0, 0, 0});
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      Point& sum = sums[owner_[i]];
+      sum = {sum.x + nodes_[i].x, sum.y + nodes_[i].y, sum.z + nodes_[i].z};
     }
+    sheet_.add("<g stroke=\"#ffffff\" stroke-width=\"3\" paint-order=\"stroke\" font-weight=\"bold\">\n");
+    for (std::size_t rank = 0; rank < sums.size(); ++rank)
+      if (const auto at = view_->place(files::unit(sums[rank])); at && files::length(sums[rank]) > 0)
+        sheet_.text({at->x, at->y + 5}, 15, Anchor::middle, std::to_string(rank));
     sheet_.add("</g>\n");
   }
 

@@ -2,13 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <iterator>
 #include <map>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -22,15 +20,10 @@ std::string valid_utf8(const std::string& text) {
 }
 
 void write_png(const files::OutputFile& file, const std::string& svg) {
-  using Stream = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-  const Stream picture(std::tmpfile(), std::fclose);  // an unnamed file cannot be left behind
-  if (picture == nullptr || std::fwrite(svg.data(), 1, svg.size(), picture.get()) != svg.size() ||
-      std::fflush(picture.get()) != 0 || std::fseek(picture.get(), 0, SEEK_SET) != 0)
-    files::fail_to_write("a temporary file", errno);
   setenv("PSTRIPACK_PICTURE", file.path().c_str(), 1);
-  const std::string command = fmt::format(
-      "rsvg-convert --unlimited --output \"$PSTRIPACK_PICTURE\" /dev/fd/{}", fileno(picture.get()));
-  if (std::system(command.c_str()) != 0)
+  std::FILE* const converter = popen("rsvg-convert --unlimited --output \"$PSTRIPACK_PICTURE\"", "w");
+  if (converter == nullptr || std::fwrite(svg.data(), 1, svg.size(), converter) != svg.size() ||
+      pclose(converter) != 0)
     throw std::runtime_error(file.name() + ": cannot be written: rsvg-convert has failed");
 }
 

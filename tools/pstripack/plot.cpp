@@ -20,18 +20,11 @@ namespace {
 
 using pictures::MeshOptions;
 
-constexpr double kWidth = 800;
-
 struct Options {
   Input input;
-  std::string file, to, what = "triangles", view, colour = "none";
-  std::optional<double> zoom;
-  std::string box, range;
-  bool dots = false;
-  bool coasts = false;
-  std::string coast_file;
+  MeshOptions mesh;
+  std::string file, to, what = "triangles", view, colour = "none", box, range;
   std::optional<std::string> title;
-  std::optional<double> width;
 };
 
 /// Parses orthographic[:LON,LAT] or lonlat[:LON,LAT].
@@ -83,7 +76,7 @@ void set_colour(const std::string& text, MeshOptions& mesh) {
 void set_box(const Options& options, MeshOptions& mesh) {
   mesh.region = region_of(options.box, "--box");
   mesh.lonlat = true;
-  if (options.zoom || (!options.view.empty() && options.view != "lonlat"))
+  if (mesh.radius || (!options.view.empty() && options.view != "lonlat"))
     throw CLI::ValidationError(
         "--box", "it is a map of longitude and latitude: leave out --zoom, and other views than lonlat");
 }
@@ -119,24 +112,19 @@ void plot(Options& options) {
   if (!globe && !pictures::kind_of(name))
     throw CLI::ValidationError(
         "--output", options.file + ": expected FILE.svg, FILE.png or FILE.html, or --to svg, png or html");
-  MeshOptions mesh_options;
-  if (options.what == "cells") mesh_options.what = MeshOptions::What::cells;
-  if (!options.view.empty()) set_view(options.view, mesh_options);
-  set_colour(options.colour, mesh_options);
-  if (!options.box.empty()) set_box(options, mesh_options);
-  if (!options.range.empty()) set_range(options.range, mesh_options);
-  mesh_options.radius = options.zoom;
-  mesh_options.width = options.width.value_or(kWidth);
-  if (mesh_options.colour == MeshOptions::Colour::degree && mesh_options.what != MeshOptions::What::cells)
+  MeshOptions& wanted = options.mesh;
+  if (options.what == "cells") wanted.what = MeshOptions::What::cells;
+  if (!options.view.empty()) set_view(options.view, wanted);
+  set_colour(options.colour, wanted);
+  if (!options.box.empty()) set_box(options, wanted);
+  if (!options.range.empty()) set_range(options.range, wanted);
+  if (wanted.colour == MeshOptions::Colour::degree && wanted.what != MeshOptions::What::cells)
     throw CLI::ValidationError("--colour", "degree is a property of nodes: say --what cells");
-  mesh_options.dots = options.dots;
-  mesh_options.coasts = options.coasts;
-  mesh_options.coast_file = options.coast_file;
-  if (globe && (mesh_options.lonlat || options.width || options.dots))
+  if (globe && (wanted.lonlat || wanted.width != MeshOptions().width || wanted.dots))
     throw CLI::ValidationError("--to", "a globe has no --view lonlat, --box, --dots or --width");
   pictures::expect_converter(kind);
 
-  options.input.read.with_columns = mesh_options.colour == MeshOptions::Colour::value;
+  options.input.read.with_columns = wanted.colour == MeshOptions::Colour::value;
   // Without triangles where nodes are left out, which renumbers corners.
   options.input.read.with_triangles = !options.input.drops() && !options.input.read.keep_missing;
   options.input.read.with_cells = true;
@@ -145,7 +133,7 @@ void plot(Options& options) {
   files::Nodes nodes = progress.step("reading", [&] { return read_nodes(options.input); });
   if (nodes.kind.find("cells") != nodes.kind.npos)
     say(nodes.file + ": whole cells of its nodes are drawn, also where it has parts of them");
-  if (mesh_options.colour == MeshOptions::Colour::value) expect_column(nodes, mesh_options.value);
+  if (wanted.colour == MeshOptions::Colour::value) expect_column(nodes, wanted.value);
   const files::Mesh mesh = progress.step("triangulating", [&] {
     if (nodes.triangles.empty()) return triangulate(nodes);
     try {
@@ -157,13 +145,13 @@ void plot(Options& options) {
     }
   });
   progress.step("drawing", [&] {
-    mesh_options.title = options.title
-                             ? *options.title
-                             : fmt::format("{}: {}", std::filesystem::path(nodes.file).filename().string(),
-                                           what_is_drawn(mesh, mesh_options.what));
+    wanted.title = options.title
+                       ? *options.title
+                       : fmt::format("{}: {}", std::filesystem::path(nodes.file).filename().string(),
+                                     what_is_drawn(mesh, wanted.what));
     std::string picture;
     try {
-      picture = globe ? globe_page(mesh_globe(mesh, mesh_options)) : mesh_picture(mesh, mesh_options);
+      picture = globe ? globe_page(mesh_globe(mesh, wanted)) : mesh_picture(mesh, wanted);
     } catch (const std::runtime_error& e) {
       throw std::runtime_error(nodes.file + ": " + e.what());
     }
@@ -197,7 +185,7 @@ void add_plot(CLI::App& app, Command& chosen) {
   sub->add_option("--view", options->view,
                   "orthographic or lonlat, or with a centre orthographic:LON,LAT [the middle of the nodes]")
       ->type_name("VIEW");
-  sub->add_option("--zoom", options->zoom, "show this many degrees around the centre [all nodes]")
+  sub->add_option("--zoom", options->mesh.radius, "show this many degrees around the centre [all nodes]")
       ->type_name("DEGREES")
       ->check(number_from(1e-6, 180, "a number from 1e-06 to 180"));
   sub->add_option("--box", options->box,
@@ -209,13 +197,15 @@ void add_plot(CLI::App& app, Command& chosen) {
       ->capture_default_str();
   sub->add_option("--range", options->range, "ends of the colour bar [those of the values]")
       ->type_name("LOW,HIGH");
-  sub->add_flag("--dots", options->dots, "also draw the nodes, as dots");
-  sub->add_flag("--coasts", options->coasts, "coast lines of Natural Earth, from Debian's libmagics++-data");
-  sub->add_option("--coast-file", options->coast_file, "coast lines of this shapefile instead")
+  sub->add_flag("--dots", options->mesh.dots, "also draw the nodes, as dots");
+  sub->add_flag("--coasts", options->mesh.coasts,
+                "coast lines of Natural Earth, from Debian's libmagics++-data");
+  sub->add_option("--coast-file", options->mesh.coast_file, "coast lines of this shapefile instead")
       ->type_name("FILE");
   sub->add_option("--title", options->title, "title of the picture [file and counts]")->type_name("TEXT");
-  sub->add_option("--width", options->width, fmt::format("width of the picture [{}]", kWidth))
+  sub->add_option("--width", options->mesh.width, "width of the picture")
       ->type_name("PIXELS")
+      ->capture_default_str()
       ->check(number_from(100, 20000, "a number from 100 to 20000"));
   sub->footer(R"(  pstripack plot mesh.nc -o mesh.svg
   pstripack plot nodes.txt --view orthographic:10,45 --zoom 5 -o zoom.png --width 1600
