@@ -104,20 +104,17 @@ class Fit {
     tangent_ = tangents(p.high);
     two_rings(pstripack::ListReader<std::int32_t>(mesh_.lists), node, rings_);
     places_.clear();
-    std::vector<Point>& sides = sides_;
-    sides.clear();
     double longest = 0;  // squared
     for (const std::int32_t other : rings_) {
       Point d = difference(unit_[index(other)], p);
       if (dot(d, d) < 0x1p-90) d = accurate_difference(mesh_.direction(other), p);
-      sides.push_back(d);
+      places_.push_back({dot(d, tangent_[0]), dot(d, tangent_[1]), dot(d, d)});
       longest = std::max(longest, dot(d, d));
     }
     scale_ = std::sqrt(longest);
-    for (const Point& d : sides)
-      places_.push_back({dot(d, tangent_[0]) / scale_, dot(d, tangent_[1]) / scale_, longest / dot(d, d)});
     quadratic_ = {}, linear_ = {};
-    for (const Place& at : places_) {
+    for (Place& at : places_) {
+      at = {at.u / scale_, at.v / scale_, longest / at.weight};
       quadratic_.add(quadratic(at), at.weight);
       linear_.add(linear(at), at.weight);
     }
@@ -140,10 +137,7 @@ class Fit {
       const auto x = linear_.solve(sums<2>(linear, excess));
       u = x[0], v = x[1];
     } else {
-      const double slope =
-          kind_ == Kind::parabola
-              ? on_line_.solve(sums<2>(parabola, excess))[0]
-              : sums<1>([](const Place& p) { return std::array{p.along}; }, excess)[0] / spread_;
+      const double slope = sums<1>([&](const Place& p) { return std::array{along(p)}; }, excess)[0] / spread_;
       u = slope * axis_[0], v = slope * axis_[1];
     }
     u /= scale_, v /= scale_;
@@ -152,16 +146,20 @@ class Fit {
   }
 
  private:
-  enum class Kind { line, parabola, linear, quadratic };
+  enum class Kind { line, linear, quadratic };
   struct Place {
     double u, v, weight;
-    double along = 0;  // of nodes on a line
   };
   static std::array<double, 5> quadratic(const Place& p) {
     return {p.u, p.v, p.u * p.u, p.u * p.v, p.v * p.v};
   }
   static std::array<double, 2> linear(const Place& p) { return {p.u, p.v}; }
-  static std::array<double, 2> parabola(const Place& p) { return {p.along, p.along * p.along}; }
+
+  /// The length of the arc to a place on the line.
+  double along(const Place& p) const {
+    const double sine = scale_ * (axis_[0] * p.u + axis_[1] * p.v);
+    return std::asin(std::clamp(sine, -1.0, 1.0)) / scale_;
+  }
 
   template <int K, class Functions, class Value>
   std::array<double, K> sums(const Functions& functions, const Value& value) const {
@@ -177,25 +175,19 @@ class Fit {
   /// determine the slope across it.
   bool find_line() {
     constexpr double kMostAcross = 1e-8;  // squared, relative
-    double uu = 0, uv = 0, vv = 0, across = 0;
+    double uu = 0, uv = 0, vv = 0;
     for (const Place& p : places_)
       uu += p.weight * p.u * p.u, uv += p.weight * p.u * p.v, vv += p.weight * p.v * p.v;
-    if ((uu + vv) / 2 - std::hypot((uu - vv) / 2, uv) > 1e-3 * (uu + vv)) return false;
     const double angle = 0.5 * std::atan2(2 * uv, uu - vv);
     axis_ = {std::cos(angle), std::sin(angle)};
+    double across = 0;
     spread_ = 0;
-    on_line_ = {};
-    for (std::size_t k = 0; k < places_.size(); ++k) {
-      Place& p = places_[k];
-      const double off = axis_[0] * p.v - axis_[1] * p.u, sine = scale_ * std::hypot(p.u, p.v);
-      p.along = axis_[0] * p.u + axis_[1] * p.v;
-      // The length of the arc to a node that may be far away.
-      if (sine > 1e-4) p.along *= 2 * std::asin(std::min(1.0, files::length(sides_[k]) / 2)) / sine;
+    for (const Place& p : places_) {
+      const double off = axis_[0] * p.v - axis_[1] * p.u;
       across += p.weight * off * off;
-      spread_ += p.weight * p.along * p.along;
-      on_line_.add(parabola(p), p.weight);
+      spread_ += p.weight * along(p) * along(p);
     }
-    kind_ = places_.size() > 3 && on_line_.factor() ? Kind::parabola : Kind::line;
+    kind_ = Kind::line;
     return across <= kMostAcross * spread_;
   }
 
@@ -203,12 +195,11 @@ class Fit {
   const std::vector<pstripack::UnitVector>& unit_;
   std::array<Point, 2> tangent_{};
   std::vector<std::int32_t> rings_;
-  std::vector<Point> sides_;   // from the node to these
-  std::vector<Place> places_;  // the same in the tangents, over scale_
+  std::vector<Place> places_;  // of these in the tangents, over scale_
   double scale_ = 1;
   Kind kind_ = Kind::linear;
   LeastSquares<5> quadratic_;
-  LeastSquares<2> linear_, on_line_;
+  LeastSquares<2> linear_;
   std::array<double, 2> axis_{};  // principal axis of the places
   double spread_ = 0;             // along it
 };

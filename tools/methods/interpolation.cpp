@@ -57,12 +57,6 @@ void for_each_block(std::size_t places, const Visit& visit) {
 
 /// The places along a space-filling curve, so that each search begins near its place.
 std::vector<std::uint32_t> along_a_curve(const std::vector<Point>& places) {
-  constexpr std::size_t kMost = std::size_t{1} << 28;  // of insertion_order; then as they are given
-  if (places.size() > kMost) {
-    std::vector<std::uint32_t> given(places.size());
-    std::iota(given.begin(), given.end(), 0U);
-    return given;
-  }
   std::vector<Point> at;
   at.reserve(places.size());
   for (const Point& p : places) at.push_back(files::unit(p));

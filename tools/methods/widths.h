@@ -31,8 +31,6 @@ class WidthFormula {
  public:
   /// Throws std::invalid_argument.
   explicit WidthFormula(const std::string& text);
-  /// The same width everywhere.
-  explicit WidthFormula(double width) : inner_(width), outer_(width) {}
 
   /// Makes the transition so long that widths change by at most `gradient` km per km; the narrower cells keep
   /// their place. True if it was shorter.

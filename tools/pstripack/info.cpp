@@ -97,59 +97,56 @@ void info(const Options& options) {
   const auto number = [&](std::int32_t n) { return nodes.number(kept[static_cast<std::size_t>(n) - 1]); };
   const auto place = [&](std::int32_t n) { return nodes.place(kept[static_cast<std::size_t>(n) - 1]); };
 
-  if (options.json) {
-    const auto extreme = [&](const Extreme& e) {
-      nlohmann::ordered_json j{{"value", e.value}, {"nodes", {number(e.first)}}};
-      if (e.second > 0) j["nodes"].push_back(number(e.second));
-      return j;
-    };
-    nlohmann::ordered_json pairs = nlohmann::ordered_json::array();
-    for (const files::Duplicate& d : duplicates)
-      pairs.push_back({nodes.number(d.first), nodes.number(d.node)});
-    const nlohmann::ordered_json j{{"file", nodes.file},
-                                   {"kind", nodes.kind},
-                                   {"nodes", given},
-                                   {"duplicates", duplicates.size()},
-                                   {"duplicate_pairs", pairs},
-                                   {"triangles", f.triangles},
-                                   {"arcs", f.arcs},
-                                   {"boundary_nodes", f.boundary},
-                                   {"fewest_neighbours", extreme(f.fewest)},
-                                   {"most_neighbours", extreme(f.most)},
-                                   {"shortest_arc", extreme(f.shortest)},
-                                   {"mean_arc", f.mean},
-                                   {"longest_arc", extreme(f.longest)},
-                                   {"near_duplicates", f.near},
-                                   {"smallest_angle_degrees", extreme(f.sharpest)}};
-    print(j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');
-    return;
-  }
-  std::string all;
-  const auto line = [&](const char* name, const std::string& text) {
-    all += fmt::format("{:<16} {}\n", name, text);
+  using Json = nlohmann::ordered_json;
+  Json json;
+  std::string text;
+  const auto line = [&](const char* name, const std::string& value) {
+    text += fmt::format("{:<16} {}\n", name, value);
+  };
+  const auto add = [&](const char* key, const Json& value, const char* name, const std::string& of_text) {
+    json[key] = value;
+    line(name, of_text);
+  };
+  const auto extreme = [&](const Extreme& e) {
+    Json j{{"value", e.value}, {"nodes", {number(e.first)}}};
+    if (e.second > 0) j["nodes"].push_back(number(e.second));
+    return j;
+  };
+  const auto length = [](double arc) {
+    return fmt::format("{:.6g} rad, {:.6g} degrees", arc, arc * files::kRadian);
   };
   const auto pair = [&](const Extreme& e) {
-    return fmt::format("{:.6g} rad, {:.6g} degrees: {} and {}", e.value, e.value * 57.295779513082321,
-                       place(e.first), place(e.second));
+    return fmt::format("{}: {} and {}", length(e.value), place(e.first), place(e.second));
   };
   line("file", fmt::format("{} ({})", nodes.file, nodes.kind));
-  line("nodes", fmt::format("{}", given));
-  line("duplicates", duplicates.empty() ? "none"
-                                        : fmt::format("{}, the first is {}; left out below",
-                                                      duplicates.size(), nodes.place(duplicates[0].node)));
-  line("triangles", fmt::format("{}", f.triangles));
-  line("arcs", fmt::format("{}", f.arcs));
-  line("boundary", f.boundary == 0 ? "none: the triangles cover the sphere" : counted(f.boundary, "node"));
-  line("neighbours", fmt::format("{} ({}) to {} ({})", f.fewest.value, place(f.fewest.first), f.most.value,
-                                 place(f.most.first)));
-  line("tightest pair", pair(f.shortest));
-  line("mean arc", fmt::format("{:.6g} rad, {:.6g} degrees", f.mean, f.mean * 57.295779513082321));
-  line("longest arc", pair(f.longest));
-  line("near duplicates", fmt::format("{} closer than {} of the mean arc", counted(f.near, "pair"), kNear));
-  line("smallest angle", fmt::format("{:.6g} degrees, at {}", f.sharpest.value, place(f.sharpest.first)));
+  json["file"] = nodes.file;
+  json["kind"] = nodes.kind;
+  add("nodes", given, "nodes", fmt::format("{}", given));
+  add("duplicates", duplicates.size(), "duplicates",
+      duplicates.empty() ? "none"
+                         : fmt::format("{}, the first is {}; left out below", duplicates.size(),
+                                       nodes.place(duplicates[0].node)));
+  json["duplicate_pairs"] = Json::array();
+  for (const files::Duplicate& d : duplicates)
+    json["duplicate_pairs"].push_back({nodes.number(d.first), nodes.number(d.node)});
+  add("triangles", f.triangles, "triangles", fmt::format("{}", f.triangles));
+  add("arcs", f.arcs, "arcs", fmt::format("{}", f.arcs));
+  add("boundary_nodes", f.boundary, "boundary",
+      f.boundary == 0 ? "none: the triangles cover the sphere" : counted(f.boundary, "node"));
+  json["fewest_neighbours"] = extreme(f.fewest);
+  add("most_neighbours", extreme(f.most), "neighbours",
+      fmt::format("{} ({}) to {} ({})", f.fewest.value, place(f.fewest.first), f.most.value,
+                  place(f.most.first)));
+  add("shortest_arc", extreme(f.shortest), "tightest pair", pair(f.shortest));
+  add("mean_arc", f.mean, "mean arc", length(f.mean));
+  add("longest_arc", extreme(f.longest), "longest arc", pair(f.longest));
+  add("near_duplicates", f.near, "near duplicates",
+      fmt::format("{} closer than {} of the mean arc", counted(f.near, "pair"), kNear));
+  add("smallest_angle_degrees", extreme(f.sharpest), "smallest angle",
+      fmt::format("{:.6g} degrees, at {}", f.sharpest.value, place(f.sharpest.first)));
   for (const files::Duplicate& d : duplicates)
     line("duplicate", fmt::format("{} and {}", nodes.place(d.first), nodes.place(d.node)));
-  print(all);
+  print(options.json ? json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n' : text);
 }
 
 }  // namespace

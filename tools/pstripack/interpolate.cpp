@@ -58,6 +58,8 @@ double parts(double extent, double step) {
   return count;
 }
 
+constexpr double kMostPlaces = 1 << 28;  // of insertion_order
+
 files::Grid grid_of(const Options& options) {
   const files::Region r = options.box.empty() ? files::Region{} : region_of(options.box, "--box");
   const double width = r.east - r.west, height = r.north - r.south;
@@ -70,7 +72,7 @@ files::Grid grid_of(const Options& options) {
     if (at_nodes) counts = {counts[0] + 1, counts[1] + (all_around ? 0 : 1)};
   }
   for (const double count : counts)
-    if (!(count >= (at_nodes ? 2 : 1) && count == std::floor(count)) || counts[0] * counts[1] > 2e9)
+    if (!(count >= (at_nodes ? 2 : 1) && count == std::floor(count)) || counts[0] * counts[1] > kMostPlaces)
       throw CLI::ValidationError("--to-grid", "expected NLATxNLON, for example 180x360");
   // In a grid around the globe the last meridian equals the first one: leave it out.
   const auto n_lat = static_cast<std::size_t>(counts[0]), n_lon = static_cast<std::size_t>(counts[1]);
@@ -158,18 +160,12 @@ files::Nodes read_points(const Options& options) {
 }
 
 void interpolate(Options& options) {
-  if (options.points.empty() + options.grid.empty() + (options.step == 0) != 2)
+  if (options.points.empty() && options.grid.empty() && options.step == 0)
     throw CLI::ValidationError("--to-points", "give one of --to-points, --to-grid, --grid-step");
-  if (!options.box.empty() && !options.points.empty())
-    throw CLI::ValidationError("--box", "is for a grid, not for --to-points");
-  if (options.registration == Registration::node && !options.points.empty())
-    throw CLI::ValidationError("--registration", "is for a grid, not for --to-points");
   const bool has_values = !options.output.empty(), has_weights = !options.weights.empty();
   if (!has_values && !has_weights) throw CLI::RequiredError("--output or --weights");
   if (has_weights && options.input.duplicates == Duplicates::mean)
     throw CLI::ValidationError("--weights", "need one node for each place: say --duplicates first");
-  if (!has_values && options.nearest_node)
-    throw CLI::ValidationError("--nearest-node", "is for columns of the output: give --output");
   const To to = has_values ? format_of(options) : To::netcdf;
   options.input.read.may_have_value = true;
   options.input.read.with_values = has_values || !options.input.read.variable.empty();
@@ -188,6 +184,9 @@ void interpolate(Options& options) {
     all.points = files::points_of(all.given);
     return all;
   });
+  if (static_cast<double>(places.points.size()) > kMostPlaces)
+    throw std::runtime_error(
+        fmt::format("{}: more than {} places: divide the file", options.points, kMostPlaces));
   const Interpolation interpolation = progress.step("triangulating", [&] {
     try {
       const auto mesh = std::make_shared<const methods::TriangulatedNodes>(nodes.points);
@@ -297,6 +296,10 @@ void add_interpolate(CLI::App& app, Command& chosen) {
          "NetCDF file of the weights as of ESMF_RegridWeightGen: row, col, S; with or without --output")
       ->type_name("FILE");
   sub->add_option("-o,--output", options->output, "file to write; - is stdout")->type_name("FILE");
+  sub->get_option("--nearest-node")->needs("--output");
+  for (const char* const of_grid : {"--box", "--registration", "--to-grid", "--grid-step"})
+    sub->get_option("--to-points")->excludes(sub->get_option(of_grid));
+  sub->get_option("--to-grid")->excludes("--grid-step");
   sub->add_option("--to", options->to,
                   "text (lines of lon lat value), csv or netcdf [by the suffix: .txt, .csv, .nc]")
       ->type_name("WORD")

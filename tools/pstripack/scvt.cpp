@@ -391,40 +391,42 @@ constexpr std::pair<const char*, std::vector<SinglePoint> State::Pair::*> kHalve
 constexpr std::pair<const char*, float SinglePoint::*> kComponents[] = {
     {"x", &SinglePoint::x}, {"y", &SinglePoint::y}, {"z", &SinglePoint::z}};
 
+/// Calls visit(its name, vectors, component) for each column of pair k.
+template <class Pair, class Visit>
+void for_each_column(Pair& pair, std::size_t k, const Visit& visit) {
+  for (const auto& [half, vectors] : kHalves)
+    for (const auto& [letter, component] : kComponents)
+      visit(fmt::format("scvt_{}_{}_{}", half, k, letter), pair.*vectors, component);
+}
+
 files::Columns columns_of(const State& state) {
-  const std::vector<State::Pair>& pairs = state.pairs;
   files::Columns columns;
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-    for (const auto& [half, vectors] : kHalves)
-      for (const auto& [letter, component] : kComponents) {
-        files::Column column{fmt::format("scvt_{}_{}_{}", half, k + 1, letter)};
-        for (const SinglePoint& v : pairs[k].*vectors) column.numbers.push_back(v.*component);
-        columns.push_back(std::move(column));
-      }
+  for (std::size_t k = 0; k < state.pairs.size(); ++k)
+    for_each_column(state.pairs[k], k + 1,
+                    [&](const std::string& name, const std::vector<SinglePoint>& vectors, auto component) {
+                      columns.push_back({name});
+                      for (const SinglePoint& v : vectors) columns.back().numbers.push_back(v.*component);
+                    });
   return columns;
 }
 
 /// The pairs in the file; empty if it does not have all of them. On other ranks than 0 as many, of no
 /// generators.
 std::vector<State::Pair> pairs_in(const files::Nodes& start, bool is_rank_0) {
-  std::vector<State::Pair> pairs;
-  for (std::int64_t k = 1; k <= count_in(start, kPairs, 0); ++k) {
-    State::Pair& pair = pairs.emplace_back();
-    if (!is_rank_0) continue;
-    for (const auto& [half, vectors] : kHalves) {
-      (pair.*vectors).resize(start.points.size());
-      for (const auto& [letter, component] : kComponents) {
-        const files::Column* const column =
-            find(start.columns, fmt::format("scvt_{}_{}_{}", half, k, letter));
-        if (column == nullptr || column->is_text()) return {};
-        for (std::size_t i = 0; i < column->numbers.size(); ++i) {
-          (pair.*vectors)[i].*component = static_cast<float>(column->numbers[i]);
-          if (!std::isfinite((pair.*vectors)[i].*component)) return {};
-        }
-      }
-    }
-  }
-  return pairs;
+  std::vector<State::Pair> pairs(static_cast<std::size_t>(count_in(start, kPairs, 0)));
+  bool has_all = true;
+  for (std::size_t k = 0; is_rank_0 && has_all && k < pairs.size(); ++k)
+    for_each_column(pairs[k], k + 1,
+                    [&](const std::string& name, std::vector<SinglePoint>& vectors, auto component) {
+                      const files::Column* const column = find(start.columns, name);
+                      vectors.resize(start.points.size());
+                      has_all = has_all && column != nullptr && !column->is_text();
+                      for (std::size_t i = 0; has_all && i < vectors.size(); ++i) {
+                        vectors[i].*component = static_cast<float>(column->numbers[i]);
+                        has_all = std::isfinite(vectors[i].*component);
+                      }
+                    });
+  return has_all ? pairs : std::vector<State::Pair>();
 }
 
 /// The state of a run from its file; the generators and pairs of rank 0. Pairs are used only if the density
@@ -503,16 +505,6 @@ methods::Quality write(Communicator& ranks, const Options& options, bool is_chec
   return quality;
 }
 
-/// Says that levels give the refined icosahedron, if N and the density allow it. A front never does.
-void suggest_levels(const Options& options) {
-  if (options.density != "constant") return;
-  int k = 0;
-  std::size_t power = 1;
-  for (; 10 * power + 2 < options.n; ++k) power *= 4;
-  if (10 * power + 2 == options.n)
-    say(fmt::format("N = 10 4^{} + 2: with --first levels all cells are hexagons, except 12 pentagons", k));
-}
-
 /// The generators of a new run, those of the last level if there are levels. Collective.
 Tessellation first_tessellation(const Options& options, engine::Evaluator& evaluator, Progress& progress) {
   const bool is_alone = evaluator.ranks().size() == 1, is_regional = !options.region.empty();
@@ -520,7 +512,6 @@ Tessellation first_tessellation(const Options& options, engine::Evaluator& evalu
                       : is_regional || (options.n >= engine::kFewestOfAFront && is_alone) ? First::front
                                                                                           : First::levels;
   if (first == First::front) {
-    if (options.first == First::by_number) suggest_levels(options);
     Tessellation t;
     in_agreement_with_caller(evaluator.ranks(), [&] {
       if (evaluator.ranks().rank() > 0) return;

@@ -3,9 +3,6 @@
 #include "methods/densities.h"
 
 #include <gtest/gtest.h>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 #include <cmath>
 #include <limits>
@@ -59,25 +56,6 @@ TEST(sampled_density, is_linear_between_its_nodes_and_must_be_known) {
   EXPECT_THROW(pstripack::scvt::run(point_sets::make("fibonacci", 100), *regional, {}),
                pstripack::scvt::BadDensity);
 }
-
-#ifdef _OPENMP
-TEST(sampled_density, gives_the_same_bits_on_any_number_of_threads) {
-  const Points nodes = point_sets::make("latlon", 500);
-  std::vector<double> values;
-  for (const Point& p : nodes) values.push_back(std::exp(p.x));
-  const std::unique_ptr<Density> density = density_between(nodes, values);
-  std::vector<Points> all;
-  for (const int threads : {1, 2, 3}) {
-    omp_set_num_threads(threads);
-    pstripack::scvt::RunOptions options;
-    options.levels = false;
-    options.most_evaluations = 6;
-    all.push_back(pstripack::scvt::run(700, *density, options).state.generators);
-  }
-  EXPECT_EQ(all[0], all[1]);
-  EXPECT_EQ(all[0], all[2]);
-}
-#endif
 
 std::vector<double> ticks(double first, double step, int count) {
   std::vector<double> t;

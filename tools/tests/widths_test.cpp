@@ -179,7 +179,7 @@ TEST(width_formula, is_as_documented) {
   for (const char* const formula :
        {"disc:", "disc:1,2,3,4,5", "disc:1,2,3,4,5,6,7", "disc:1,2,3,x,5,6", "disc:0,2,3,4,5,6",
         "disc:1,-2,3,4,5,6", "disc:1,2,-3,4,5,6", "disc:1,2,3,nan,5,6", "disc:1,2,3,4,5,91",
-        "band:1,2,3,4,5,6", "band:1,2,3,4,-91"})
+        "band:1,2,3,4,5,6", "band:1,2,3,4,-91", "0", "-60km", "nankm", "60miles", "km"})
     EXPECT_THROW(WidthFormula{formula}, std::invalid_argument) << formula;
 }
 
@@ -224,7 +224,7 @@ TEST(widths_of_regions, change_over_the_transitions_and_hold_holes_datelines_and
       widths_of_regions({region(30, 1000, {box(0, -20, 40, 20), box(10, -10, 30, 10)}),
                          region(40, 500, {box(170, -20, 190, 20)}), region(50, 0, {box(-180, 80, 180, 90)}),
                          region(240, 1000, {box(60, -70, 120, -20)})},
-                        WidthFormula(120), 6371);
+                        WidthFormula("120km"), 6371);
   EXPECT_NEAR(t.lat[1] - t.lat[0], 30 * km, 0.001);
   const GridValues widths(t);
   const auto width = [&](double lon, double lat) { return width_at(widths, lon, lat); };
@@ -240,7 +240,7 @@ TEST(widths_of_regions, change_over_the_transitions_and_hold_holes_datelines_and
   EXPECT_NEAR(width(90, -20 - 500 * km), 180, 4);
   EXPECT_NEAR(width(90, -45), 240, 1e-9);
   EXPECT_EQ(width(90, -19), 120);
-  EXPECT_THROW(widths_of_regions({region(30, 0, {box(0, 0, 0.2, 0.2)})}, WidthFormula(120), 6371),
+  EXPECT_THROW(widths_of_regions({region(30, 0, {box(0, 0, 0.2, 0.2)})}, WidthFormula("120km"), 6371),
                std::runtime_error);
 }
 
@@ -276,7 +276,7 @@ TEST(widths_in, are_those_asked_for_in_the_area_and_ten_widths_around_it_then_gr
   };
   for (const auto& [area, lon, lat, towards] :
        {Rim{disc, 170, 80 - 1000 * km, -1}, {cap, 33, 90 - 2000 * km, -1}, {box, 0, 15, 1}}) {
-    const RegionalWidths regional = widths_in(area, WidthFormula(20).widths(6371), 0.2, 6371);
+    const RegionalWidths regional = widths_in(area, WidthFormula("20").widths(6371), 0.2, 6371);
     const auto width = [&, lon = lon, lat = lat](double degrees) {
       const double density = regional.widths.density->at(point_sets::from_degrees(lon, lat + degrees));
       return regional.widths.least / std::sqrt(std::sqrt(density));
@@ -309,13 +309,13 @@ TEST(widths_in, are_those_asked_for_in_the_area_and_ten_widths_around_it_then_gr
                   std::sqrt(std::sqrt(steep.widths.density->at(point_sets::from_degrees(0, 1000 * km)))),
               40, 0.1);
   EXPECT_THROW(
-      widths_in(files::circle_area("small", 0, 0, 5 / 6371.0), WidthFormula(20).widths(6371), 0.2, 6371),
+      widths_in(files::circle_area("small", 0, 0, 5 / 6371.0), WidthFormula("20").widths(6371), 0.2, 6371),
       std::runtime_error);
 }
 
 TEST(front_around, is_one_lattice_around_the_centre) {
   const files::LimitedArea area = files::circle_area("disc", -77, 33, 1000 / 6371.0);
-  const RegionalWidths regional = widths_in(area, WidthFormula(80).widths(6371), 0.2, 6371);
+  const RegionalWidths regional = widths_in(area, WidthFormula("80").widths(6371), 0.2, 6371);
   const auto n = static_cast<std::size_t>(regional.widths.cells);
   files::Mesh mesh = files::triangulate(front_around(regional.centre, n, *regional.widths.density));
   EXPECT_EQ(mesh.points.size(), n);
