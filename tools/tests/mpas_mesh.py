@@ -3,16 +3,15 @@ extended precision, and not by the program's ways. Compares with what MPAS' conv
 
 mpas_mesh.py PSTRIPACK DATA FOLDER
 """
+import itertools
 import json
 import math
 import subprocess
 import sys
 from pathlib import Path
 
-import mpmath
 import netCDF4
 import numpy as np
-import xarray
 
 PROGRAM, DATA, FOLDER = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
 REAL = np.longdouble
@@ -94,19 +93,6 @@ def check_who_touches_whom(mesh):
         if (cells > 0).all():
             assert edges[0] == edges.min()
         assert (edges > 0).sum() == min(3, (cells > 0).sum() + 1)
-
-
-def counterclockwise(mesh):
-    """Share of corners of cells and vertices that turn left: all, but where rounding or an obtuse triangle is at work."""
-    n = mesh.nEdgesOnCell
-    left = []
-    for c in range(len(mesh.cell)):
-        ring = mesh.vertex[mesh.verticesOnCell[c, :n[c]] - 1]
-        left.append(area(mesh.cell[c], ring, np.roll(ring, -1, axis=0)) > -1e-15)
-    whole = (mesh.cellsOnVertex > 0).all(axis=1)
-    a, b, c = (mesh.cell[mesh.cellsOnVertex[whole, k] - 1] for k in range(3))
-    assert (area(a, b, c) > 0).all()
-    return np.concatenate(left).mean()
 
 
 def check_values(mesh, tolerance=4e-13):
@@ -215,24 +201,6 @@ def check_values(mesh, tolerance=4e-13):
     assert 0 < mesh.meshDensity.min() and mesh.meshDensity.max() <= 1
 
 
-def check_tangential_velocity(mesh):
-    """TRiSK: weights are antisymmetric, and give the tangential velocity of a solid rotation. Returns the error."""
-    scaled = {}
-    for e in range(len(mesh.edge)):
-        for other, weight in zip(mesh.edgesOnEdge[e], mesh.weightsOnEdge[e]):
-            if other > 0 and mesh.dvEdge[other - 1] > 0:
-                scaled[e, other - 1] = scaled.get((e, other - 1), 0) + weight * mesh.dcEdge[e] / mesh.dvEdge[other - 1]
-    assert max(abs(value + scaled[b, a]) for (a, b), value in scaled.items() if (b, a) in scaled) < 1e-12
-    c, d = mesh.cellsOnEdge.T - 1
-    normal = mesh.cell[d] - mesh.cell[c]
-    normal /= np.sqrt(dot(normal, normal))[:, None]
-    tangent = np.cross(mesh.edge, normal)
-    wind = np.cross(np.array([0.6, 0, 0.8], REAL), mesh.edge)
-    u = dot(wind, normal)
-    got = (mesh.weightsOnEdge * np.where(mesh.edgesOnEdge > 0, u[mesh.edgesOnEdge - 1], 0)).sum(axis=1)
-    return float(np.sqrt(((got - dot(wind, tangent))**2).mean()))
-
-
 def check_graph(mesh, file):
     lines = file.read_text().splitlines()
     assert lines[0].split() == [str(len(mesh.cell)), str((mesh.cellsOnEdge > 0).all(axis=1).sum())]
@@ -266,7 +234,7 @@ def check_against_the_converter(name):
     return mesh
 
 
-def cut(mesh, name, kept, file):
+def cut(mesh, kept, file):
     """Removes cells as MPAS' culler does: vertices stay while one of their cells does."""
     number = np.zeros(len(mesh.cell) + 1, int)
     number[1:][kept] = np.arange(kept.sum()) + 1
@@ -282,50 +250,29 @@ def cut(mesh, name, kept, file):
         out.createVariable("cellsOnVertex", "i4", ("nVertices", "vertexDegree"))[:] = cells_on_vertex[vertices]
         out.createVariable("meshDensity", "f8", "nCells")[:] = mesh.meshDensity[kept]
         out.sphere_radius, out.on_a_sphere, out.file_id = radius, "YES", mesh.attributes["file_id"]
-    return vertices
 
 
 def check_cut(mesh, name, kept):
     """A mesh with a boundary: what is left has the values that it had."""
-    vertices = cut(mesh, name, kept, FOLDER / f"{name}.nc")
+    cut(mesh, kept, FOLDER / f"{name}.nc")
     run("convert", FOLDER / f"{name}.nc", "--to", "mpas", "-o", FOLDER / f"{name}.mpas.nc")
     part = check(name, 1e-10)
     assert part.attributes["parent_id"] == mesh.attributes["file_id"]
     assert part.attributes["sphere_radius"] == mesh.attributes["sphere_radius"]
     assert np.allclose(part.areaCell, mesh.areaCell[kept], rtol=1e-13) and (part.meshDensity == mesh.meshDensity[kept]).all()
-    number = np.zeros(len(mesh.cell) + 1, int)
-    number[1:][kept] = np.arange(kept.sum()) + 1
-    of = np.flatnonzero(vertices)
-    for v, w in enumerate(of):  # kites by cell
-        ours = {c: k for c, k in zip(part.cellsOnVertex[v], part.kiteAreasOnVertex[v]) if c > 0}
-        all_three = {number[c]: k for c, k in zip(mesh.cellsOnVertex[w], mesh.kiteAreasOnVertex[w]) if number[c] > 0}
-        assert ours.keys() == all_three.keys() and all(abs(ours[c] - all_three[c]) < 1e-11 * mesh.areaCell.max() for c in ours)
-    edges = {tuple(sorted(ends)): e for e, ends in enumerate(mesh.verticesOnEdge)}
-    for e, (v, w) in enumerate(part.verticesOnEdge):
-        f = edges[tuple(sorted((of[v - 1] + 1, of[w - 1] + 1)))]
-        assert abs(part.dcEdge[e] - mesh.dcEdge[f]) < 1e-11 * mesh.dcEdge[f]
-        assert abs(part.dvEdge[e] - mesh.dvEdge[f]) < 1e-13 * mesh.dcEdge[f]
-        flipped = number[mesh.cellsOnEdge[f, 0]] == 0  # then n points the other way
-        turned = part.angleEdge[e] - mesh.angleEdge[f] - (math.pi if flipped else 0)
-        assert abs(math.sin(turned / 2)) < 1e-9
-    run("convert", FOLDER / f"{name}.mpas.nc", "-o", FOLDER / f"{name}_again.mpas.nc")
-    again = Mesh(FOLDER / f"{name}_again.mpas.nc")
-    for variable in ("cellsOnVertex", "verticesOnEdge", "edgesOnEdge", "areaCell", "weightsOnEdge"):
-        assert np.allclose(getattr(again, variable), getattr(part, variable), rtol=1e-12, atol=1e-12), variable
 
 
-def is_inside(point, circle, polygons):
-    """With 40 digits. The sides of polygons are straight on the map: crossed by a parallel, east of the point, an odd number
-    of times."""
-    x, y, z = (mpmath.mpf(float(c)) for c in point)
+def are_inside(cells, circle, polygons):
+    """The sides of polygons are straight on the map: crossed by a parallel, east of the place, an odd number of times."""
     if circle:
-        km, p, q = circle[0], mpmath.radians(circle[1]), mpmath.radians(circle[2])
-        cosine = (mpmath.cos(q) * (x * mpmath.cos(p) + y * mpmath.sin(p)) + z * mpmath.sin(q)) / mpmath.sqrt(x * x + y * y + z * z)
-        return mpmath.acos(cosine) < km / mpmath.mpf("6371.22")
-    lon, lat = mpmath.degrees(mpmath.atan2(y, x)), mpmath.degrees(mpmath.atan2(z, mpmath.hypot(x, y)))
-    crossings = [[x1 + (lat - y1) / (y2 - y1) * (mpmath.mpf(x2) - x1) for ring in polygon for (x1, y1), (x2, y2) in zip(ring, ring[1:])
-                  if (y1 <= lat) != (y2 <= lat)] for polygon in polygons]
-    return any(sum(across > lon + turn for across in all) % 2 == 1 for all in crossings for turn in (-360, 0, 360))
+        return cells @ unit_vectors(circle[2], circle[1]) > math.cos(circle[0] / 6371.22)
+    lon, lat = np.degrees(np.arctan2(cells[:, 1], cells[:, 0])), np.degrees(np.arcsin(cells[:, 2]))
+    inside = np.zeros(len(cells), bool)
+    for polygon, turn in itertools.product(polygons, (-360, 0, 360)):
+        crossings = [((y1 <= lat) != (y2 <= lat)) & (x1 + (lat - y1) / (y2 - y1) * (x2 - x1) > lon + turn)
+                     for ring in polygon for (x1, y1), (x2, y2) in zip(ring, ring[1:]) if y1 != y2]
+        inside |= np.sum(crossings, axis=0) % 2 == 1
+    return inside
 
 
 def places_on_boundary(circle, polygons, count=20000):
@@ -339,8 +286,8 @@ def places_on_boundary(circle, polygons, count=20000):
         return math.cos(r) * centre + math.sin(r) * around
     sides = [side for polygon in polygons for ring in polygon for side in zip(ring, ring[1:])]
     part = t[::len(sides)]
-    lon, lat = (np.radians(np.concatenate([a[k] + part * (b[k] - a[k]) for a, b in sides])) for k in (0, 1))
-    return np.stack([np.cos(lat) * np.cos(lon), np.cos(lat) * np.sin(lon), np.sin(lat)], axis=1)
+    lon, lat = (np.concatenate([a[k] + part * (b[k] - a[k]) for a, b in sides]) for k in (0, 1))
+    return unit_vectors(lat, lon)
 
 
 def layers_by_definition(mesh, circle, polygons):
@@ -349,8 +296,7 @@ def layers_by_definition(mesh, circle, polygons):
     cells = mesh.cell.astype(float)
     for places in np.array_split(places_on_boundary(circle, polygons), 40):
         mask[(places @ cells.T).argmax(axis=1)] = 0
-    with mpmath.workdps(40):
-        inside = np.array([is_inside(point, circle, polygons) for point in mesh.cell])
+    inside = are_inside(cells, circle, polygons)
     assert inside.any()
     mask[inside] = 0
     return with_layers(mesh, mask)
@@ -496,17 +442,12 @@ def check_other_formats(part, name, text):
 
 FOLDER.mkdir(parents=True, exist_ok=True)
 meshes = [check_against_the_converter(name) for name in ("u42", "u162")]
-errors = [check_tangential_velocity(mesh) for mesh in meshes]
 run("scvt", 642, "--tolerance", 1e-6, "--radius", 6371229, "-o", FOLDER / "earth.mpas.nc")
 earth = check("earth")
-errors.append(check_tangential_velocity(earth))
-assert errors[0] < 0.05 and errors[1] < 0.3 * errors[0] and errors[2] < 0.3 * errors[1], errors  # second order
-assert counterclockwise(earth) == 1 and (earth.obtuseTriangle == 0).all()
+assert (earth.obtuseTriangle == 0).all() and earth.attributes["sphere_radius"] == 6371229
+assert earth.attributes["history"].startswith("pstripack ")
 assert abs(earth.areaCell.sum() / (4 * math.pi * 6371229.0**2) - 1) < 1e-13
 assert abs(earth.nominalMinDc / earth.dcEdge.mean() - 1) < 0.01  # the width of regular hexagons
-with xarray.open_dataset(FOLDER / "earth.mpas.nc") as data:
-    assert data.sizes["nCells"] == 642 and data["areaCell"].dims == ("nCells",) and data.history.startswith("pstripack ")
-    assert data["weightsOnEdge"].dims == ("nEdges", "maxEdges2") and data.sphere_radius == 6371229
 
 # With a boundary: holes, single cells, rows of cells, and one whose edges are all cut.
 band = np.abs(earth.latCell) < 0.9
@@ -595,4 +536,4 @@ assert f" of {said.split('the widths give ')[2].split()[0]} cells kept: {(limite
 run("points", "hemisphere", 60, "-o", FOLDER / "half.txt")
 said = run("triangulate", FOLDER / "half.txt", "-o", FOLDER / "half.mpas.nc")
 assert f"{60 - len(check('half').cell)} nodes have no whole cell, at the boundary of the mesh" in said, said
-print("all meshes are as they should be", errors)
+print("all meshes are as they should be")

@@ -68,11 +68,14 @@ def by_xarray(name, group):
         return {str(v): np.asarray(x.values, dtype=float).ravel() for v, x in file.variables.items()}
 
 
-def convert(file, *options, to="csv"):
-    """What it prints, on stdout or as an error."""
-    result = subprocess.run([os.environ["PSTRIPACK"], "-q", "convert", file, "-o", "-", "--to", to, *options],
-                            capture_output=True, text=True)
+def pstripack(*arguments):
+    """What it prints, on stdout and as messages."""
+    result = subprocess.run([os.environ["PSTRIPACK"], *arguments], capture_output=True, text=True)
     return result.stdout + result.stderr
+
+
+def convert(file, *options, to="csv"):
+    return pstripack("-q", "convert", file, "-o", "-", *([] if "--to" in options else ["--to", to]), *options)
 
 
 def columns_of(text):
@@ -130,6 +133,9 @@ def made(tmp_path, cdl):
 PLACES = """double lon(n); lon:units="degrees_east"; double lat(n); lat:units="degrees_north"; """
 BARE = "double lon(n), lat(n);"
 PLACES_DATA = "lon=0,10,20; lat=0,20,10; "
+RADIANS = "%s lonCell(n); %s latCell(n);"
+GRID = 'double longitude(n); longitude:units="degrees"; double latitude(time); latitude:units="degrees";'
+VECTORS = PLACES + "double xCell(n), yCell(n), zCell(n);"
 MESH = """dimensions: n=4; f=2; four=4; three=3; variables: int line; line:cf_role="mesh_topology";
   line:topology_dimension=1; line:node_coordinates="bx by"; double bx(f); bx:units="degrees_east"; double by(f);
   by:units="degrees_north"; int m; m:cf_role="mesh_topology"; m:topology_dimension=2; m:node_coordinates=%s;
@@ -177,6 +183,33 @@ def test_faces_of_more_than_three_corners_are_told(tmp_path):
     (BARE, "lon=1,2,3; lat=1,2,1;", ["--units", "degrees"], "1,1\n2,2\n3,1\n"),
     ('double lon(n); lon:units="radian"; double lat(n); lat:units="degrees_north";', "lon=0,1,2; lat=0,50,-3;", [],
      "57.29577951308232,50\n"),
+    # Radians without units are those of MPAS; the number nearest to a right angle means it, also of floats.
+    (RADIANS % ("double", "double"), "lonCell=0,1.5707963267948966,0; latCell=1.5707963267948966,0,-1.5707963267948966;",
+     ["--to", "xyz"], "0 0 1\n0 1 0\n0 0 -1\n"),
+    (RADIANS % ("float", "float"), "lonCell=0,3.1415927,4.712389; latCell=1.5707964,0,0;", ["--to", "xyz"],
+     "0 0 1\n-1 0 0\n0 -1 0\n"),
+    (RADIANS % ("double", "double"), "lonCell=0,1,2; latCell=1.5707964,0,1;", ["--to", "xyz"], "-7.320510347335801e-08 "),
+    # Axes are a grid, fields of one shape are pairs.
+    (GRID, "longitude=0,90,180; latitude=0,30;", [], "0,0\n90,0\n180,0\n0,30\n90,30\n180,30\n"),
+    (GRID.replace("time", "one, n").replace("(n)", "(one, n)"), "longitude=0,90,180; latitude=0,30,60;", [],
+     "lat\n0,0\n90,30\n180,60\n"),
+    # Vectors as they are; angles beside them unless those are of other nodes; planar meshes.
+    (VECTORS, "lon=-270,180,0; lat=0,0,0; xCell=0,-2,6371229; yCell=3,0,0; zCell=0,0,0;", [], "lat\n-270,0\n180,0\n0,0\n"),
+    (VECTORS, "lon=-270,170,0; lat=0,0,0; xCell=0,-2,6371229; yCell=3,0,0; zCell=0,0,0;", [],
+     "\n90,0,0,3,0\n180,0,-2,0,0\n0,0,6371229,0,0\n"),
+    (VECTORS + ':on_a_sphere="NO              ";', PLACES_DATA, [], "on_a_sphere is NO: a planar mesh"),
+    # Places may be missing if the caller says so.
+    ('double TLONG(n); TLONG:units="degrees_east"; double TLAT(n); TLAT:units="degrees_north"; TLAT:missing_value=1e30;',
+     "TLONG=1,_,3; TLAT=1e30,2,4;", ["--skip-missing"], "lon,lat\n3,4\n"),
+    # Columns that are chosen.
+    (PLACES + 'double a(n), t(n); t:units="K";', PLACES_DATA + "t=5,_,6;", ["--columns", "lat,lon,t"], "variable lat holds latitudes: give the longitudes first"),
+    (PLACES + 'double east(n), north(n), t(n); t:units="K";', PLACES_DATA + "east=1,2,90; north=3,4,5; t=5,_,6;",
+     ["--columns", "east,north,t", "--units", "degrees"], "lon,lat,t [K]\n1,3,5\n2,4,\n90,5,6\n"),
+    (PLACES + "double north(n);", PLACES_DATA, ["--columns", "lon,nroth"], "no variable 'nroth'; did you mean north?"),
+    (PLACES, PLACES_DATA, ["--columns", "lon"], "--columns names 1 variable: expected longitude and latitude"),
+    (PLACES, PLACES_DATA, ["--columns", "lon,lat,lon"], "variable 'lon' is chosen twice"),
+    (PLACES + "double other(time);", PLACES_DATA, ["--columns", "lon,lat,other"],
+     "variable other(time=2): expected one value per node, other(n=3)"),
     # Nodes that are none.
     ("double depth(n);", "", [], "expected variables xCell"),
     ("double lon(n);", "", [], "there is no variable of latitudes beside lon"),
@@ -216,3 +249,63 @@ def test_what_a_header_announces_is_bounded(tmp_path, lengths, words):
         for axis in "lon", "lat":
             file.createVariable(axis, "f8", dimensions, chunksizes=[100] * len(lengths), fill_value=False)
     assert words + " values; there can be 357913943 nodes at most" in convert(name)
+
+
+@pytest.mark.parametrize("time", ["", "Time, "])
+@pytest.mark.parametrize("lon, lat", [("nav_lon", "nav_lat"), ("glamt", "gphit"), ("XLONG", "XLAT"), ("TLONG", "TLAT"),
+                                      ("lon", "lat")])
+def test_coordinates_of_models_are_found(tmp_path, lon, lat, time):
+    """NEMO, WRF, POP and CORDEX: the nodes are where each file has its longitudes and latitudes; or those of the variable."""
+    of = f"{time}y,x"
+    file = made(tmp_path, f"""dimensions: Time=1; y=2; x=3; variables: double {lon}({of}), {lat}({of}), ULON({of}), ULAT({of});
+      {lat}:units="degree_north"; ULON:units="degrees_east"; ULAT:units="degrees_north"; double T(Time,y,x), U(y,x);
+      U:coordinates="time ULAT ULON"; data: {lon}=0,40,80,5,45,85; {lat}=0,1,2,30,31,32; ULON=0,1,2,30,31,32;
+      ULAT=0,1,2,30,31,32; T=1,2,3,4,5,6; U=1,2,3,4,5,6;""")
+    for variable, names in ([], f"{lon} {lat}"), (["--variable", "T"], f"{lon} {lat}"), (["--variable", "U"], "ULON ULAT"):
+        command = ["interpolate", file, *variable, "--to-grid", "2x2", "-o", "-"] if variable else ["info", file]
+        assert f"NetCDF, {names} in degrees" in pstripack(*command)
+
+
+def test_a_pair_of_usual_names_may_be_that_of_another_grid(tmp_path):
+    file = made(tmp_path, """dimensions: n=3; m=4; k=2; variables: double clon(m); clon:units="radian"; double clat(m);
+      clat:units="radian"; double a(n); a:standard_name="longitude"; a:units="radian"; double b(n); b:units="degreeN";
+      b:bounds="b_bounds"; double b_bounds(n,k); b_bounds:units="degreeN"; double s(n); data: clon=0,1,2,3; clat=0,1,0,-1;
+      a=0,1,2; b=0,50,-3; s=1,2,3;""")
+    assert "NetCDF, a b in degrees" in pstripack("interpolate", file, "--variable", "s", "--to-grid", "2x2", "-o", "-")
+    assert "NetCDF, clon clat in radians" in pstripack("info", file)
+
+
+@pytest.mark.parametrize("variable, words", [
+    ("t", "\n180 0 3 3 130\n0 30 4 4 140\n90 30 2 nan nan\n"), ("packed", "\n180 30 130 6 nan\n"),
+    ("turned", "expected turned(lat=2, lon=3); exchange the dimensions, by ncpdq -a lat,lon"),
+    ("elsewhere", "expected elsewhere(lat=2, lon=3)\n"),
+    ("deep", "expected deep(lat=2, lon=3); take one layer out, say by ncks -d layers,0"),
+    ("none", "variables with one value per node: t, packed"), ("", "say --variable NAME; variables with one value per node: t")])
+def test_values_have_the_dimensions_of_the_nodes(tmp_path, variable, words):
+    file = made(tmp_path, """dimensions: time=1; lat=2; lon=3; other=3; layers=2; variables: double lon(lon);
+      lon:units="degrees_east"; double lat(lat); lat:units="degrees_north"; double t(time,lat,lon); t:units="K";
+      double turned(lon,lat), elsewhere(lat,other), deep(layers,lat,lon), packed(lat,lon); packed:scale_factor=10.;
+      packed:add_offset=100.; packed:missing_value=-5.; data: lon=0,90,180; lat=0,30; t=1,2,3,4,_,6;
+      packed=1,2,3,4,_,-5;""")
+    said = pstripack("-q", "interpolate", file, *(["--variable", variable] if variable else []), "--skip-missing", "--method",
+                     "nearest", "--to-points", file, "-o", "-")
+    assert words in said
+
+
+@pytest.mark.parametrize("kind", ["NETCDF3_CLASSIC", "NETCDF3_64BIT_OFFSET", "NETCDF3_64BIT_DATA", "NETCDF4"])
+def test_a_truncated_file_is_refused(tmp_path, kind):
+    """Past failure: libnetcdf reads what a truncated file lacks as zeros."""
+    name = tmp_path / "x.nc"
+    with netCDF4.Dataset(name, "w", format=kind) as file:
+        file.createDimension("n", 20)
+        file.createDimension("time", None)
+        for axis, units in ("lon", "degrees_east"), ("lat", "degrees_north"):
+            v = file.createVariable(axis, "f8", ("n",))
+            v.units = units
+            v[:] = np.arange(20)
+        file.createVariable("T", "f4", ("time", "n"))[0] = np.arange(20)
+    whole = name.read_bytes()
+    assert "18,18,18\n19,19,19\n" in convert(str(name))
+    for size in (len(whole) - 1, *range(8, len(whole) - 1, 1 + len(whole) // 12)):
+        name.write_bytes(whole[:size])
+        assert ("NetCDF: " if kind == "NETCDF4" else ": incomplete NetCDF file: it ends before") in convert(str(name)), size

@@ -1,6 +1,6 @@
-"""Reads files that pstripack writes by other programs: ncdump, netCDF4, xarray, meshio.
+"""Reads files that pstripack writes by other programs: netCDF4, xarray, meshio.
 
-other_readers.py PSTRIPACK NCDUMP FOLDER
+other_readers.py PSTRIPACK FOLDER
 """
 import math
 import subprocess
@@ -12,7 +12,7 @@ import netCDF4
 import numpy as np
 import xarray
 
-PROGRAM, NCDUMP, FOLDER = sys.argv[1], sys.argv[2], Path(sys.argv[3])
+PROGRAM, FOLDER = sys.argv[1], Path(sys.argv[2])
 N = 642  # icosahedral: 12 nodes have five neighbours, all others six
 TRIANGLES = 2 * N - 4
 
@@ -32,13 +32,9 @@ def signed_volumes(points, triangles):
 
 
 def check_ugrid(nodes, mesh_file, cells_file):
-    header = subprocess.run([NCDUMP, "-h", mesh_file], check=True, capture_output=True, text=True).stdout
-    for line in (f"mesh_nodes = {N} ;", f"mesh_faces = {TRIANGLES} ;", 'mesh:cf_role = "mesh_topology" ;',
-                 "mesh_face_nodes:start_index = 1 ;", "mesh_face_nodes:_FillValue = -1 ;"):
-        assert line in header, line
-
     with netCDF4.Dataset(mesh_file) as mesh:
         faces = mesh["mesh_face_nodes"]
+        assert mesh["mesh"].cf_role == "mesh_topology" and (faces.start_index, faces._FillValue) == (1, -1)
         triangles = faces[:] - faces.start_index
         assert not np.ma.is_masked(triangles) and triangles.shape == (TRIANGLES, 3)
         points = unit_vectors(mesh["mesh_node_lon"][:], mesh["mesh_node_lat"][:])
@@ -177,14 +173,11 @@ def check_field(nodes):
     run("interpolate", FOLDER / "values.txt", "--grid-step", 5, "-o", FOLDER / "grid.nc")
     with xarray.open_dataset(FOLDER / "grid.nc") as grid:
         value = grid["value"]
-        assert value.dims == ("lat", "lon") and value.shape == (36, 72)
+        assert value.dims == ("lat", "lon") and value.shape == (36, 72) and grid.Conventions == "CF-1.8"
         assert grid.lon.units == "degrees_east" and grid.lat.standard_name == "latitude"
         assert grid.lat.values[[0, -1]].tolist() == [-87.5, 87.5] and grid.lon.values[[0, -1]].tolist() == [-177.5, 177.5]
         exact = 280 + np.sin(np.radians(grid.lat.values))[:, None]
         assert np.isnan(value.values[:18]).all() and np.abs(value.values[20:] - exact[20:]).max() < 0.01
-    header = subprocess.run([NCDUMP, "-h", FOLDER / "grid.nc"], check=True, capture_output=True, text=True).stdout
-    for line in ("double value(lat, lon) ;", "value:_FillValue = ", ':Conventions = "CF-1.8" ;'):
-        assert line in header, line
     run("interpolate", FOLDER / "values.txt", "--to-points", FOLDER / "nodes.txt", "-o", FOLDER / "points.nc")
     with xarray.open_dataset(FOLDER / "points.nc") as points:
         assert points["value"].dims == ("point",) and {"lon", "lat"} <= set(points["value"].coords)
