@@ -2,11 +2,9 @@
 
 #include <sys/mman.h>
 
-#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <mutex>
-#include <utility>
 
 #include "base/cached.h"
 #include "base/environment.h"

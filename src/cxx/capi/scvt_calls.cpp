@@ -3,19 +3,13 @@
 
 #include "capi/scvt_calls.h"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
 #include <vector>
 
 #include "base/parallel_for.h"
-#include "capi/pstripack.h"
 #include "lists/limits.h"
 #include "lists/rings.h"
-#include "scvt/errors.h"
 #include "scvt/exact_sum.h"
 #include "scvt/front.h"
-#include "scvt/tessellation.h"
 
 namespace {
 

@@ -49,7 +49,6 @@
 #include "geometry/measures.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <type_traits>
 

@@ -1,8 +1,6 @@
 #include "lists/rings.h"
 
-#include <algorithm>
 #include <atomic>
-#include <cstdint>
 
 #include "base/parallel_for.h"
 

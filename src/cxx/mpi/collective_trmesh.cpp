@@ -11,7 +11,6 @@
 #include "base/splitmix64.h"
 #include "geometry/predicates.h"
 #include "lists/limits.h"
-#include "mpi/gather_lists.h"
 #include "mpi/numbering.h"
 #include "parallel/agreement.h"
 #include "parallel/coincidence.h"

@@ -4,7 +4,6 @@
 #include <cstring>
 #include <new>
 #include <numeric>
-#include <utility>
 
 #include "base/parallel_for.h"
 #include "geometry/predicates.h"

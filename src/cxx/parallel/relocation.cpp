@@ -5,7 +5,6 @@
 
 #include "parallel/agreement.h"
 #include "parallel/halo.h"
-#include "parallel/number_table.h"
 #include "parallel/ring_parcels.h"
 
 namespace pstripack {

@@ -1,6 +1,5 @@
 #include "parallel/return_rings.h"
 
-#include <algorithm>
 #include <cassert>
 #include <iterator>
 #include <optional>

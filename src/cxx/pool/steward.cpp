@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "base/environment.h"
-#include "mpi/collective_trmesh.h"
 #include "pool/area_layout.h"
 #include "pool/keeper.h"
 #include "pool/messages.h"

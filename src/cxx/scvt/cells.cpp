@@ -44,7 +44,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "base/parallel_for.h"
 #include "scvt/vectors.h"

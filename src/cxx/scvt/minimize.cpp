@@ -6,12 +6,10 @@
 #include <limits>
 #include <string>
 #include <tuple>
-#include <utility>
 
 #include "base/parallel_for.h"
 #include "scvt/errors.h"
 #include "scvt/metric.h"
-#include "scvt/vectors.h"
 
 namespace pstripack::scvt {
 namespace {

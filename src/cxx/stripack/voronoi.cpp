@@ -4,7 +4,6 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
 #include <functional>
 #include <initializer_list>
@@ -18,7 +17,6 @@
 #include "base/parallel_for.h"
 #include "base/workspace.h"
 #include "geometry/measures.h"
-#include "geometry/predicates.h"
 #include "lists/rings.h"
 #include "lists/triangle_numbers.h"
 #include "stripack/list_queries.h"

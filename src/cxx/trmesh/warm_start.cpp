@@ -11,7 +11,6 @@
 #include "base/cached.h"
 #include "base/parallel_for.h"
 #include "lists/list_pieces.h"
-#include "mesh/flips.h"
 #include "mesh/sample_of_stars.h"
 #include "parallel/environment_options.h"
 
