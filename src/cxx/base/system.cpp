@@ -32,7 +32,7 @@ char** all_environment_variables() {
 #endif
 }
 
-// POSIX has no way to learn these two, so the build with PSTRIPACK_ONLY_POSIX keeps that of Linux.
+// POSIX has no way to learn it, so the build with PSTRIPACK_ONLY_POSIX keeps that of Linux.
 std::string path_of_this_program() {
   char path[PATH_MAX] = "";
 #if defined(__linux__)
@@ -44,14 +44,6 @@ std::string path_of_this_program() {
   return _NSGetExecutablePath(given, &size) == 0 && realpath(given, path) != nullptr ? path : "";
 #else
   return path;
-#endif
-}
-
-const char* name_of_this_program() {
-#if defined(__linux__)
-  return program_invocation_short_name;
-#else
-  return getprogname();  // BSD, macOS
 #endif
 }
 

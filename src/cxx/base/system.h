@@ -23,8 +23,6 @@ char** all_environment_variables();
 
 /// Path of the program that this process runs; empty if it is unknown.
 std::string path_of_this_program();
-/// The name that this program was started by, without folders.
-const char* name_of_this_program();
 
 /// As socketpair() for a stream, but close-on-exec; where the system needs two steps for that, a program
 /// started by another thread between them inherits the descriptors. False on failure, with errno set.
