@@ -37,7 +37,6 @@ constexpr double kSameCorner = 1e-14;
 /// On a plane, or on the map: longitude and latitude.
 struct Corner {
   double u, v;
-  std::int32_t place = -1;   ///< which corner of the polygon it is; -1: none
   std::ptrdiff_t side = -1;  ///< to the next corner: which of Faces::corner it begins at in a cell; -1: none
 };
 using Ring = std::vector<Corner>;
@@ -221,21 +220,35 @@ int divisions_of(const Corner& p, const Corner& q) {
   return static_cast<int>(std::ceil(std::max({1.0, std::sqrt(bend / most), std::max(a, b) * kRadian / 10})));
 }
 
+/// Gives corners the bits of an earlier one within kSameCorner.
+class SameCorners {
+ public:
+  const MapCorner& of(const MapCorner& corner) {
+    // Heights above a plane along which few corners lie differ by no more than their places.
+    const double height = dot(corner.p, {0.36, 0.48, 0.8});
+    for (auto c = corners_.lower_bound(height - 2 * kSameCorner);
+         c != corners_.end() && c->first <= height + 2 * kSameCorner; ++c)
+      if (length(minus(c->second.p, corner.p)) < kSameCorner) return c->second;
+    return corners_.emplace(height, corner)->second;
+  }
+
+ private:
+  std::multimap<double, MapCorner> corners_;
+};
+
 /// One piece of a polygon on its plane.
 struct Sheet {
   Plane plane;
   Rings rings;
-  std::vector<Place> places;  ///< of its corners
 
-  explicit Sheet(const Rings& piece) : plane(box_of(piece).middle()) {
+  Sheet(const Rings& piece, SameCorners& same) : plane(box_of(piece).middle()) {
     for (const Ring& on_map : piece) {
       Ring ring;
       const auto add = [&](double lon, double lat) {
-        Corner c = plane.at(lon, lat);
+        const Corner c = plane.at(lon, lat);
         if (!ring.empty() && ring.back().u == c.u && ring.back().v == c.v) return;
-        c.place = static_cast<std::int32_t>(places.size());
-        places.emplace_back(lon, lat);
         ring.push_back(c);
+        same.of({point_sets::from_degrees(lon, lat), lon, lat});
       };
       for_each_side(on_map, [&](const Corner& p, const Corner& q) {
         add(p.u, p.v);
@@ -303,22 +316,6 @@ class Sides {
   std::vector<Point> normals_;
 };
 
-/// Gives corners the bits of an earlier one within kSameCorner.
-class SameCorners {
- public:
-  const MapCorner& of(const MapCorner& corner) {
-    // Heights above a plane along which few corners lie differ by no more than their places.
-    const double height = dot(corner.p, {0.36, 0.48, 0.8});
-    for (auto c = corners_.lower_bound(height - 2 * kSameCorner);
-         c != corners_.end() && c->first <= height + 2 * kSameCorner; ++c)
-      if (length(minus(c->second.p, corner.p)) < kSameCorner) return c->second;
-    return corners_.emplace(height, corner)->second;
-  }
-
- private:
-  std::multimap<double, MapCorner> corners_;
-};
-
 class Clipper {
  public:
   explicit Clipper(const Faces& cells)
@@ -329,7 +326,8 @@ class Clipper {
   }
 
   /// The sum of the areas of the parts, and that of the sheet.
-  void clip(const Sheet& sheet, std::size_t feature) {
+  void clip(const Rings& piece, std::size_t feature) {
+    const Sheet sheet(piece, same_);
     sheet_ = &sheet;
     feature_ = feature;
     const Box box = box_of(sheet.rings);
@@ -345,7 +343,6 @@ class Clipper {
       const Rings part = cut_at_sides({box.ring()}, f);
       if (part.empty()) continue;
       candidates.push_back({f, box_of(part)});
-      for (const MapCorner& c : ring_of(cells_, f, angles_, cells_.corner)) same_.of(c);
     }
     area_ = around_ = 0;
     clip(candidates.begin(), candidates.end(), sheet.rings);
@@ -440,10 +437,7 @@ class Clipper {
       const Corner &c = ring[i], &before = ring[i > 0 ? i - 1 : ring.size() - 1];
       const Point p = sheet_->plane.on_sphere(c);
       MapCorner corner{p, longitude(p), latitude(p)};
-      if (c.place >= 0) {
-        const auto [lon, lat] = sheet_->places[static_cast<std::size_t>(c.place)];
-        corner = {point_sets::from_degrees(lon, lat), lon, lat};
-      } else if (before.side >= 0 && c.side >= 0 && before.side != c.side) {
+      if (before.side >= 0 && c.side >= 0 && before.side != c.side) {
         // Two sides of the cell meet at its corner. If they are nearly one arc, they do not tell where.
         corner = corner_at(cells_, cells_.corner[static_cast<std::size_t>(c.side)], angles_);
       }
@@ -516,7 +510,7 @@ Faces clipped_to_polygons(const Faces& cells, const std::vector<MapRegion>& poly
   bool has_names = false;
   for (const MapRegion& polygon : polygons) {
     expect_no_crossing(polygon);
-    for (const Rings& piece : pieces_on_map(oriented(polygon))) clipper.clip(Sheet(piece), polygon.feature);
+    for (const Rings& piece : pieces_on_map(oriented(polygon))) clipper.clip(piece, polygon.feature);
     clipper.move_to(pieces);
     number.numbers.resize(pieces.size(), static_cast<double>(polygon.feature));
     name.texts.resize(pieces.size(), polygon.name);

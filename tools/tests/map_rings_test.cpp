@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <string>
@@ -47,25 +48,6 @@ Faces cells_of(const Mesh& mesh) {
 
 double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
-// Overlaps, gaps, clockwise polygons, wrong cuts and missing poles would change the area.
-TEST(map, is_covered_once_by_triangles_and_by_cells) {
-  for (const char* const family : {"random", "latlon", "icosahedral", "cubed-sphere", "healpix", "fibonacci"})
-    for (const std::size_t n : {30u, 200u}) {
-      const Mesh mesh = triangulate(point_sets::make(family, n));
-      for (const Faces& faces : {triangle_faces(mesh), cells_of(mesh)}) {
-        const MapLines lines(faces);
-        double area = 0;
-        for (std::size_t f = 0; f < faces.size(); ++f)
-          for (const MapRing& ring : lines.polygons(f)) {
-            EXPECT_GT(area_on_map(ring), 0) << family << ' ' << f;
-            area += area_on_map(ring);
-            for (const MapCorner& c : ring) EXPECT_TRUE(std::fabs(c.x()) <= 180 && std::fabs(c.lat) <= 90);
-          }
-        EXPECT_NEAR(area, 360 * 180, 1e-7) << family << ' ' << n;
-      }
-    }
-}
-
 using Place = std::pair<double, double>;  // longitude, latitude
 
 /// Sides of polygons without the same side, reversed, of another polygon. Those along a pole are left out,
@@ -107,19 +89,31 @@ std::vector<std::vector<MapRing>> maps_of(const Faces& faces) {
 
 /// Each side once each way: an arc has the same bits in the polygons on both sides. `is_inside(place)`: the
 /// faces cover the surroundings of the place.
-template <class IsInside>
-void expect_topology(const Faces& faces, const std::string& what, const IsInside& is_inside) {
+void expect_topology(
+    const Faces& faces, const std::string& what,
+    const std::function<bool(const Place&)>& is_inside = [](const Place&) { return true; }) {
   std::size_t alone = 0;
   for (const auto& [from, to] : sides_without_partner(maps_of(faces)))
     alone += is_inside(from) || is_inside(to);
   EXPECT_EQ(alone, 0u) << what;
 }
 
-const auto kEverywhere = [](const Place&) { return true; };
+// Overlaps, gaps, clockwise polygons, wrong cuts and missing poles would change the area.
+void expect_cover(const Faces& faces, const std::string& what) {
+  expect_topology(faces, what);
+  double area = 0;
+  for (const std::vector<MapRing>& rings : maps_of(faces))
+    for (const MapRing& ring : rings) {
+      EXPECT_GT(area_on_map(ring), 0) << what;
+      area += area_on_map(ring);
+      for (const MapCorner& c : ring) EXPECT_TRUE(std::fabs(c.x()) <= 180 && std::fabs(c.lat) <= 90);
+    }
+  EXPECT_NEAR(area, 360 * 180, 1e-7) << what;
+}
 
-void expect_topology_of_mesh(const Mesh& mesh, const std::string& what) {
-  expect_topology(cells_of(mesh), what, kEverywhere);
-  if (!mesh.has_boundary()) expect_topology(triangle_faces(mesh), what, kEverywhere);
+void expect_cover_of_mesh(const Mesh& mesh, const std::string& what) {
+  expect_cover(cells_of(mesh), what);
+  if (!mesh.has_boundary()) expect_cover(triangle_faces(mesh), what);
 }
 
 Points read_nodes(const char* file) { return read(std::string(TEST_DATA_DIR "/") + file).points; }
@@ -143,20 +137,20 @@ Points pairs(double apart, std::uint64_t seed) {
   return points;
 }
 
-TEST(map, has_each_side_once_each_way) {
-  expect_topology_of_mesh(triangulate(read_nodes("stations_111_m_apart.csv")), "three stations");
-  expect_topology_of_mesh(triangulate(read_nodes("stations_2_m_apart.csv")), "two stations");
+TEST(map, is_covered_once_and_has_each_side_once_each_way) {
+  expect_cover_of_mesh(triangulate(read_nodes("stations_111_m_apart.csv")), "three stations");
+  expect_cover_of_mesh(triangulate(read_nodes("stations_2_m_apart.csv")), "two stations");
   for (const char* const family : {"random", "latlon", "reduced-gaussian", "icosahedral", "cubed-sphere",
                                    "healpix", "fibonacci", "clusters:1e-3", "dense-cap:1e-5", "variable:1e4",
                                    "pairs:1e-6", "spiral:20", "rounded:3", "cap", "ring"})
     for (const std::size_t n : {12u, 100u})
-      expect_topology_of_mesh(triangulate(point_sets::make(family, n)), fmt::format("{} {}", family, n));
+      expect_cover_of_mesh(triangulate(point_sets::make(family, n)), fmt::format("{} {}", family, n));
   for (const double metres : {0.1, 1.0, 10.0, 1e2, 1e3, 1e4, 1e5})
     for (const std::uint64_t seed : {1u, 2u}) {
       const Mesh mesh = triangulate(pairs(metres / 6371e3, seed));
       const std::string what = fmt::format("pairs {} m apart, {}", metres, seed);
-      expect_topology(cells_of(mesh), what, kEverywhere);
-      if (metres >= 100) expect_topology(triangle_faces(mesh), what, kEverywhere);
+      expect_topology(cells_of(mesh), what);
+      if (metres >= 100) expect_topology(triangle_faces(mesh), what);
     }
 }
 
@@ -311,35 +305,6 @@ TEST(cells, of_a_region_and_of_the_hull_have_each_side_once_each_way) {
     }
 }
 
-TEST(cells, fill_a_region_once) {
-  for (const char* const family : {"random", "latlon", "icosahedral", "cubed-sphere", "cap", "hemisphere"})
-    for (const std::size_t n : {6u, 300u}) {
-      const Faces all = cells_of(triangulate(point_sets::make(family, n)));
-      for (const Region& region : kRegions) {
-        const double width = region.east - region.west, height = region.north - region.south;
-        const double area =
-            width / kDegree * (point_sets::sin_degrees(region.north) - point_sets::sin_degrees(region.south));
-        const Faces cells = clipped_to_polygons(all, {region_of_box(region)});
-        EXPECT_NEAR(sum(areas(cells)) / area, 1, 1e-5) << family << ' ' << region.west;
-        const MapLines lines(cells);
-        double on_map = 0;
-        for (std::size_t f = 0; f < cells.size(); ++f)
-          for (const MapRing& ring : lines.polygons(f)) on_map += area_on_map(ring);
-        // Where a cell was halved, its lines pass the corner of a neighbour at up to 0.001 degrees.
-        EXPECT_NEAR(on_map, width * height, 0.001 * std::min(height, 50.0))
-            << family << ' ' << n << ' ' << region.west;
-        for (std::size_t i = 0; i < cells.points.size(); ++i) {
-          const double lon = cells.given_points.lon[i], lat = cells.given_points.lat[i];
-          EXPECT_TRUE(lat > region.south - 2e-4 && lat < region.north + 2e-4 && std::fabs(lon) <= 180)
-              << region.west;
-          const double from_west = lon - region.west - 360 * std::floor((lon - region.west) / 360);
-          EXPECT_TRUE(from_west <= width + 1e-9 || from_west >= 360 - 1e-9 || std::fabs(lat) == 90)
-              << lon << ' ' << lat;
-        }
-      }
-    }
-}
-
 TEST(cells, are_several_pieces_where_a_region_cuts_them_so) {
   const Mesh mesh = triangulate(point_sets::make("icosahedral", 12));
   const Faces cells = clipped_to_polygons(cells_of(mesh), {region_of_box({0, 359, -90, 90})});
@@ -423,20 +388,20 @@ TEST(cells, fill_polygons_once) {
   const MapRegion bays = region({with_bays(178, 30, 12), with_bays(174, 31, 2), with_bays(181, 29, 1)});
   LonLats clockwise = box(0, 90, 0, 90);
   std::reverse(clockwise.begin(), clockwise.end());
-  const MapRegion polygons[] = {
-      bays, region({clockwise}), region({box(-90, 90, -90, 90)}), region({box(-180, 180, -90, 90)}),
-      region({box(0, 360, -90, 90), bays.rings[0]}), region({box(-180, 180, -90, -60)}),
+  std::vector<MapRegion> polygons{
+      bays, region({clockwise}), region({box(0, 360, -90, 90), bays.rings[0]}),
       region({with_bays(10, 20, 1e-3)}),
       // Sides that no great circle is near to.
       region({closed({{0, 0}, {60, 45}, {0, 45}})}), region({closed({{0, 60}, {90, 60}, {45, 90}})}),
       region({closed({{10, 45}, {11, 75}, {9, 75}})}),
       region({closed({{170, -80}, {300, 70}, {190, 85}, {200, 0}}), box(205, 206, 30, 31)}),
       region({closed({{8, 47}, {8.3, 47.1}, {8.2, 47.3}, {8.1, 47.15}})})};
+  for (const Region& box : kRegions) polygons.push_back(region_of_box(box));
   std::map<const MapRegion*, double> area;
   for (const MapRegion& polygon : polygons) area[&polygon] = area_within(polygon);
   for (const char* const family :
        {"random", "latlon", "icosahedral", "healpix", "cap", "hemisphere", "strip"})
-    for (const std::size_t n : {3u, 20u, 300u}) {
+    for (const std::size_t n : {3u, 300u}) {
       const Faces all = cells_of(triangulate(point_sets::make(family, n)));
       for (const MapRegion& polygon : polygons) {
         const Faces cells = clipped_to_polygons(all, {polygon});
@@ -466,13 +431,8 @@ TEST(cells, of_polygons_are_those_of_the_nearest_nodes) {
       const double lon = polygon.rings[0][0].first + random.uniform(-13, 13) * (points.size() > 10 ? 2 : 0.4),
                    lat =
                        polygon.rings[0][0].second + random.uniform(-13, 13) * (points.size() > 10 ? 1 : 0.2);
-      bool is_inside = false;
-      for (const LonLats& ring : polygon.rings) {
-        MapRing corners;
-        for (const auto& [x, y] : ring) corners.push_back({{}, x, y});
-        is_inside = is_inside != holds(corners, lon, lat);
-      }
       const Point p = point_sets::from_degrees(lon, lat);
+      const bool is_inside = polygon.contains(p);
       const auto nearest =
           std::max_element(points.begin(), points.end(),
                            [&](const Point& a, const Point& b) { return dot(a, p) < dot(b, p); });
