@@ -89,21 +89,18 @@ bool Scale::fits(double pixels, double size) const {
   return true;
 }
 
-Scale Scale::fitting(const std::vector<double>& values, int about, double pixels, double size) {
-  for (; about > 1; --about)
-    if (Scale scale(values, about); scale.fits(pixels, size)) return scale;
-  return {values, 1};
-}
-
-Scale Scale::between(double low, double high, int about, double pixels, double size) {
+Scale Scale::fitting(const std::vector<double>& values, bool exact, int about, double pixels, double size) {
   for (;; --about) {
-    Scale scale({low, high}, about);
-    scale.low_ = low, scale.high_ = high;
-    const double rounding = kRounding * (high - low);
-    scale.ticks_.erase(
-        std::remove_if(scale.ticks_.begin(), scale.ticks_.end(),
-                       [&](const Tick& t) { return t.value < low - rounding || t.value > high + rounding; }),
-        scale.ticks_.end());
+    Scale scale(values, about);
+    if (exact) {
+      scale.low_ = values.front(), scale.high_ = values.back();
+      const double rounding = kRounding * (scale.high_ - scale.low_);
+      const auto is_outside = [&](const Tick& t) {
+        return t.value < scale.low_ - rounding || t.value > scale.high_ + rounding;
+      };
+      scale.ticks_.erase(std::remove_if(scale.ticks_.begin(), scale.ticks_.end(), is_outside),
+                         scale.ticks_.end());
+    }
     if (about == 1 || scale.fits(pixels, size)) return scale;
   }
 }

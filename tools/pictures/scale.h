@@ -11,10 +11,9 @@ class Scale {
  public:
   /// `values`: not empty. `about`: approximate number of steps between ticks.
   Scale(const std::vector<double>& values, int about);
-  /// At most `about` steps; fewer if labels of font size `size` would overlap on `pixels` pixels.
-  static Scale fitting(const std::vector<double>& values, int about, double pixels, double size);
-  /// From `low` to `high`, which need not be ticks.
-  static Scale between(double low, double high, int about, double pixels, double size);
+  /// At most `about` steps; fewer if labels of font size `size` would overlap on `pixels` pixels. `exact`:
+  /// its ends are the two values, which need not be ticks.
+  static Scale fitting(const std::vector<double>& values, bool exact, int about, double pixels, double size);
 
   double operator()(double value) const;  ///< fraction of the range: 0 to 1
 
@@ -22,7 +21,8 @@ class Scale {
     double value;
     std::string label;
   };
-  /// Ticks at round values. The first and the last are the ends of the range, but for between(). Label times
+  /// Ticks at round values. The first and the last are the ends of the range, unless they are
+  /// exact. Label times
   /// factor() is the value.
   const std::vector<Tick>& ticks() const { return ticks_; }
   double factor() const;

@@ -18,9 +18,9 @@ Shading shading_of_numbers(const std::vector<double>& values, const std::string&
   shading.shades.push_back({kNoColour, "no value", values.size() - known.size()});
   shading.of_face.assign(values.size(), kShades);
   if (known.empty()) return shading;
+  const std::vector<double> ends = range ? std::vector{range->first, range->second} : known;
   const Scale& scale =
-      shading.scale.emplace(range ? Scale::between(range->first, range->second, kSteps, width, kTickLabels)
-                                  : Scale::fitting(known, kSteps, width, kTickLabels));
+      shading.scale.emplace(Scale::fitting(ends, range.has_value(), kSteps, width, kTickLabels));
   shading.title = title;
   if (const std::string unit_there = scale.name_of_factor() + unit; !unit_there.empty())
     shading.title += ", " + unit_there;

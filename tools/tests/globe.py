@@ -63,7 +63,14 @@ def make_inputs():
         file.write("lon,lat,height,kind\n")
         for k, (lon, lat) in enumerate(rows):
             file.write(f"{float(lon) % 360!r},{lat},{'' if k == 7 else k * k / 7 - 1000},{'Où</script>' if k % 3 else 'b'}\n")
-    write_shapefile("coast.shp", [[(0, 0), (20, 1.00001), (170, -60)], [(-170.5, 80), (10, 89)]])
+    # Also land that is cut at the antimeridian and continued to the pole: the cuts are no coast.
+    write_shapefile("coast.shp", [[(0, 0), (20, 1.00001), (170, -60)], [(-170.5, 80), (10, 89)],
+                                  [(180, -80), (0, -70), (-180, -80), (-180, -90), (180, -90), (180, -80)]])
+    whole = Path("coast.shp").read_bytes()
+    for size in 0, 50, 99, 104, 110, 150, len(whole) - 1:
+        Path("short.shp").write_bytes(whole[:size])
+        done = subprocess.run([PROGRAM, "plot", "nodes.csv", "--coast-file", "short.shp", "-o", "short.svg"], capture_output=True, text=True)
+        assert done.returncode == 1 and "short.shp: not a shapefile (.shp) of lines or polygons" in done.stderr, (size, done)
     run("points", "cap:0.3", 200, "-o", "region.txt")
 
 
@@ -84,7 +91,9 @@ def check_data():
     low, high = float(data["ticks"][0][1]), float(data["ticks"][-1][1])
     for height, shade in zip(heights, data["shades"], strict=True):
         assert shade == 64 if height is None else abs(shade / 63 - (height - low) / (high - low)) < 0.5001 / 63
-    assert data["coasts"] == [[0, 0, 2000000, 100001, 15000000, -6100001], [-17050000, 8000000, 18050000, 900000]], data["coasts"]
+    assert [line for line in data["coasts"] if len(line) > 2] == [
+        [0, 0, 2000000, 100001, 15000000, -6100001], [-17050000, 8000000, 18050000, 900000],
+        [-18000000, -8000000, 18000000, 1000000, -18000000, -1000000]], data["coasts"]
 
     run("plot", "nodes.csv", "--what", "cells", "--colour", "kind", "--view", "orthographic:10,50", "--zoom", 20, "-o", "kinds.html")
     data = data_of("kinds.html")

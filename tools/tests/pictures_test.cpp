@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <boost/property_tree/xml_parser.hpp>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <set>
 #include <sstream>
 
@@ -240,20 +238,20 @@ TEST(scale, has_round_ticks_in_its_range_that_are_labelled_with_their_values) {
 
 TEST(scale, has_fewer_ticks_where_labels_are_wide) {
   const std::vector<double> wide{1.6e9, 1.6e9 + 300};
-  const Scale fitting = Scale::fitting(wide, 6, 200, 12);
+  const Scale fitting = Scale::fitting(wide, false, 6, 200, 12);
   EXPECT_LT(fitting.ticks().size(), Scale(wide, 6).ticks().size());
   EXPECT_TRUE(std::isfinite(Scale({-1.7e308, 1.7e308}, 6).ticks()[1].value));  // the difference overflows
 }
 
 TEST(scale, between_given_ends_has_round_ticks_that_need_not_be_the_ends) {
-  const Scale scale = Scale::between(273, 310, 6, 400, 12);
+  const Scale scale = Scale::fitting({273, 310}, true, 6, 400, 12);
   EXPECT_EQ(scale(273), 0);
   EXPECT_EQ(scale(310), 1);
   EXPECT_EQ(scale(250), 0);
   EXPECT_EQ(scale(320), 1);
   EXPECT_EQ(scale.ticks().front().value, 275);
   EXPECT_EQ(scale.ticks().back().value, 310);
-  const Scale decades = Scale::between(2, 700, 6, 400, 12);
+  const Scale decades = Scale::fitting({2, 700}, true, 6, 400, 12);
   EXPECT_NEAR(decades(std::sqrt(2.0 * 700)), 0.5, 1e-15);
   EXPECT_EQ(decades(-1), 0);
   EXPECT_EQ(decades.ticks().front().value, 10);
@@ -446,64 +444,6 @@ TEST(mesh_picture, of_too_many_nodes_in_view_says_how_to_zoom) {
 }
 
 // ---- coasts ----
-
-/// A shapefile of polygons, each one part.
-class Shapefile {
- public:
-  explicit Shapefile(const std::vector<std::vector<Spot>>& polygons) {
-    std::string records;
-    for (const auto& polygon : polygons) {
-      std::string shape = little(std::int32_t{5}) + std::string(32, '\0') + little(std::int32_t{1}) +
-                          little(static_cast<std::int32_t>(polygon.size())) + little(std::int32_t{0});
-      for (const Spot& s : polygon) shape += little(s.lon) + little(s.lat);
-      records += big(1) + big(static_cast<std::int32_t>(shape.size() / 2)) + shape;
-    }
-    bytes = big(9994) + std::string(96, '\0') + records;
-  }
-  Lines read(std::size_t size = SIZE_MAX) const {
-    const std::string name = testing::TempDir() + "coast.shp";
-    std::ofstream(name, std::ios::binary) << bytes.substr(0, size);
-    return read_shapefile(name);
-  }
-  std::string bytes;
-
- private:
-  template <class T>
-  static std::string little(T value) {
-    std::string text(sizeof value, '\0');
-    std::memcpy(text.data(), &value, sizeof value);
-    return text;
-  }
-  static std::string big(std::int32_t value) {
-    std::string text = little(value);
-    std::reverse(text.begin(), text.end());
-    return text;
-  }
-};
-
-TEST(coasts, are_those_of_the_shapefile_without_its_cuts) {
-  // An island; and a land that is cut at the antimeridian and continued to the pole.
-  const Shapefile file({{{10, 40}, {12, 40}, {12, 42}, {10, 40}},
-                        {{180, -80}, {0, -70}, {-180, -80}, {-180, -90}, {180, -90}, {180, -80}}});
-  std::vector<std::size_t> lengths;
-  for (const auto& line : file.read())
-    if (line.size() > 1) lengths.push_back(line.size());
-  EXPECT_EQ(lengths, (std::vector<std::size_t>{4, 3}));
-  EXPECT_EQ(file.read()[0][0], point_sets::from_degrees(10, 40));
-  MeshOptions options;
-  options.coast_file = testing::TempDir() + "coast.shp";
-  const Mesh mesh = mesh_of_family("random", 50);
-  EXPECT_EQ(count(mesh_picture(mesh, options), "#1c1c1c"), 1u);
-  options.coast_file.clear();
-  EXPECT_EQ(count(mesh_picture(mesh, options), "#1c1c1c"), 0u);
-}
-
-TEST(coasts, of_a_file_that_is_cut_short_are_refused) {
-  const Shapefile file({{{10, 40}, {12, 40}, {12, 42}, {10, 40}}});
-  EXPECT_TRUE(file.read(100).empty());  // a header alone
-  for (std::size_t size = 0; size < file.bytes.size(); size += size == 99 ? 2 : 1)
-    EXPECT_THROW(file.read(size), std::runtime_error) << size;
-}
 
 TEST(coasts, of_natural_earth_are_as_fine_as_needed_or_there_is_a_remedy) {
   const std::filesystem::path folder = testing::TempDir() + "natural_earth";
