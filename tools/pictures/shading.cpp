@@ -22,7 +22,7 @@ Shading shading_of_numbers(const std::vector<double>& values, const std::string&
   const Scale& scale =
       shading.scale.emplace(Scale::fitting(ends, range.has_value(), kSteps, width, kTickLabels));
   shading.title = title;
-  if (const std::string unit_there = scale.name_of_factor() + unit; !unit_there.empty())
+  if (const std::string unit_there = scale.name_of_factor() + (unit == "1" ? "" : unit); !unit_there.empty())
     shading.title += ", " + unit_there;
   for (std::size_t f = 0; f < values.size(); ++f)
     if (std::isfinite(values[f]))
