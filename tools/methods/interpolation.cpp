@@ -43,19 +43,7 @@ bool is_above(const Direction& a, const Direction& b, const Direction& c, const 
 
 constexpr std::size_t kBlock = 512;  // places; searches restart in each block, so that threads change no bit
 
-std::size_t blocks_of(std::size_t places) { return (places + kBlock - 1) / kBlock; }
-
-/// Calls visit(block, first, end) for each block of so many places, on several threads.
-template <class Visit>
-void for_each_block(std::size_t places, const Visit& visit) {
-  pstripack::ErrorsOfThreads errors(blocks_of(places));
-  pstripack::parallel_for(blocks_of(places), 100 * places, [&](std::size_t b) {
-    errors.keep(b, [&] { visit(b, b * kBlock, std::min((b + 1) * kBlock, places)); });
-  });
-  errors.rethrow();
-}
-
-/// The places along a space-filling curve, so that each search begins near its place.
+/// The order of the places along a space-filling curve, so that each search begins near its place.
 std::vector<std::uint32_t> along_a_curve(const std::vector<Point>& places) {
   std::vector<Point> at;
   at.reserve(places.size());
@@ -440,27 +428,32 @@ double Interpolation::cubic_value(const Point& p, const std::vector<Share>& shar
 }
 
 template <class Use>
-std::size_t Interpolation::for_each_place(const std::vector<Point>& places,
-                                          const std::vector<std::uint32_t>& order, Method method,
-                                          Outside outside, const Use& use) const {
-  std::vector<std::size_t> count_outside(blocks_of(places.size()));
-  for_each_block(places.size(), [&](std::size_t b, std::size_t begin, std::size_t end) {
-    std::int32_t near = 1;
-    std::vector<Share> shares;
-    for (std::size_t k = begin; k < end; ++k) {
-      const Point& p = places[order[k]];
-      bool is_inside = false;
-      if (method != Method::nearest)
-        is_inside = method == Method::linear ? linear(p, near, shares) : natural(p, near, shares);
-      if (!is_inside) {
-        shares.clear();
-        if (method == Method::nearest || outside == Outside::nearest)
-          shares.push_back({near = nearest(p, near), 1});
-        if (method != Method::nearest) ++count_outside[b];
+std::size_t Interpolation::for_each_place(const std::vector<Point>& places, Method method, Outside outside,
+                                          const Use& use) const {
+  const std::vector<std::uint32_t> order = along_a_curve(places);
+  const std::size_t blocks = (places.size() + kBlock - 1) / kBlock;
+  std::vector<std::size_t> count_outside(blocks);
+  pstripack::ErrorsOfThreads errors(blocks);
+  pstripack::parallel_for(blocks, 100 * places.size(), [&](std::size_t b) {
+    errors.keep(b, [&] {
+      std::int32_t near = 1;
+      std::vector<Share> shares;
+      for (std::size_t k = b * kBlock; k < std::min((b + 1) * kBlock, places.size()); ++k) {
+        const Point& p = places[order[k]];
+        bool is_inside = false;
+        if (method != Method::nearest)
+          is_inside = method == Method::linear ? linear(p, near, shares) : natural(p, near, shares);
+        if (!is_inside) {
+          shares.clear();
+          if (method == Method::nearest || outside == Outside::nearest)
+            shares.push_back({near = nearest(p, near), 1});
+          if (method != Method::nearest) ++count_outside[b];
+        }
+        use(order[k], shares);
       }
-      use(k, shares);
-    }
+    });
   });
+  errors.rethrow();
   return std::accumulate(count_outside.begin(), count_outside.end(), std::size_t{0});
 }
 
@@ -469,7 +462,6 @@ Interpolation::Result Interpolation::values_at(const std::vector<Point>& places,
                                                Outside outside) const {
   Result result;
   result.values.resize(places.size());
-  const std::vector<std::uint32_t> order = along_a_curve(places);
   const std::vector<Point> slopes = method == Method::cubic ? gradients(mesh_, values) : std::vector<Point>();
   const auto value_of = [&](std::int32_t node) { return values[static_cast<std::size_t>(node) - 1]; };
   const auto value_at = [&](const Point& place, const std::vector<Share>& shares) {
@@ -484,45 +476,33 @@ Interpolation::Result Interpolation::values_at(const std::vector<Point>& places,
     return std::clamp(sum, low, high);  // rounding may exceed the range
   };
   result.outside =
-      for_each_place(places, order, method, outside, [&](std::size_t k, const std::vector<Share>& shares) {
-        result.values[order[k]] = value_at(places[order[k]], shares);
+      for_each_place(places, method, outside, [&](std::size_t i, const std::vector<Share>& shares) {
+        result.values[i] = value_at(places[i], shares);
       });
   return result;
 }
 
 files::Weights Interpolation::weights_at(const std::vector<Point>& places, Method method,
                                          Outside outside) const {
-  files::Weights all;
-  all.begin.resize(places.size() + 1);
-  const std::vector<std::uint32_t> order = along_a_curve(places);
-  std::vector<std::vector<Share>> of_blocks(blocks_of(places.size()));
+  std::vector<std::vector<Share>> of_places(places.size());
   const GradientTerms gradients = method == Method::cubic ? gradient_terms(mesh_) : GradientTerms();
-  all.outside =
-      for_each_place(places, order, method, outside, [&](std::size_t k, std::vector<Share>& shares) {
-        if (method == Method::cubic) cubic_shares(places[order[k]], gradients, shares);
-        std::vector<Share>& here = of_blocks[k / kBlock];
-        here.insert(here.end(), shares.begin(), shares.end());
-        all.begin[order[k] + std::size_t{1}] = shares.size();
-      });
-  std::partial_sum(all.begin.begin(), all.begin.end(), all.begin.begin());
-  all.node.resize(all.begin.back());
-  all.part.resize(all.begin.back());
-  for_each_block(places.size(), [&](std::size_t b, std::size_t begin, std::size_t end) {
-    auto share = of_blocks[b].begin();
-    for (std::size_t k = begin; k < end; ++k)
-      for (std::size_t to = all.begin[order[k]]; to < all.begin[order[k] + std::size_t{1}]; ++to, ++share)
-        all.node[to] = share->node, all.part[to] = share->part;
-    of_blocks[b] = {};
+  files::Weights all;
+  all.outside = for_each_place(places, method, outside, [&](std::size_t i, std::vector<Share>& shares) {
+    if (method == Method::cubic) cubic_shares(places[i], gradients, shares);
+    of_places[i] = shares;
   });
+  all.begin.push_back(0);
+  for (const std::vector<Share>& shares : of_places) {
+    for (const Share& share : shares) all.node.push_back(share.node), all.part.push_back(share.part);
+    all.begin.push_back(all.node.size());
+  }
   return all;
 }
 
 Interpolation::Nearest Interpolation::nearest_at(const std::vector<Point>& places) const {
   Nearest found{std::vector<std::int32_t>(places.size()), std::vector<double>(places.size())};
-  const std::vector<std::uint32_t> order = along_a_curve(places);
   for_each_place(
-      places, order, Method::nearest, Outside::nearest, [&](std::size_t k, const std::vector<Share>& shares) {
-        const std::size_t i = order[k];
+      places, Method::nearest, Outside::nearest, [&](std::size_t i, const std::vector<Share>& shares) {
         found.node[i] = shares[0].node;
         found.distance[i] = arc_length(mesh_.direction(found.node[i]), pstripack::direction_of(places[i]));
       });

@@ -114,11 +114,11 @@ class Interpolation {
   bool dig(const Direction& place, const Corners& corners, std::vector<std::int32_t>& nodes,
            pstripack::Cavity& cavity) const;
   Candidate descend(const ByDistance& order, Candidate node) const;
-  /// Calls use(k, shares) for each place order[k], on several threads; without shares where it has no value.
-  /// Returns the number of places outside the triangles.
+  /// Calls use(i, shares) for each place i, on several threads; without shares where it has no value. Returns
+  /// the number of places outside the triangles.
   template <class Use>
-  std::size_t for_each_place(const std::vector<Point>& places, const std::vector<std::uint32_t>& order,
-                             Method method, Outside outside, const Use& use) const;
+  std::size_t for_each_place(const std::vector<Point>& places, Method method, Outside outside,
+                             const Use& use) const;
   Point at(std::int32_t node) const { return mesh_.at(node); }
   /// The directions of the nodes, made when first needed.
   const Direction* directions() const;

@@ -53,6 +53,14 @@ Points distinct(std::size_t n, const std::function<Point()>& draw) {
   return p;
 }
 
+Family drawn(const char* name, const char* parameter, const char* what,
+             Point (*draw)(double, Random&, std::size_t)) {
+  return {name, parameter, "n", what, [draw](std::size_t n, double value, Random& random) {
+            std::size_t i = 0;
+            return distinct(n, [&] { return draw(value, random, i++); });
+          }};
+}
+
 Point Orbit::seen_from_earth(double along, double across, double turn) const {
   // Seen along the motion, the pole of the orbit is to the left.
   const Point below{cos_degrees(along), sin_degrees(along) * cos_degrees(inclination),

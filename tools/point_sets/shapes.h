@@ -42,6 +42,10 @@ double ten_to_minus(double x);
 /// `n` different results of `draw`; fewer if it returns only repeats.
 Points distinct(std::size_t n, const std::function<Point()>& draw);
 
+/// A family of nodes that are drawn one after the other: draw() makes the i-th, from 0. Repeats are left out.
+Family drawn(const char* name, const char* parameter, const char* what,
+             Point (*draw)(double parameter, Random& random, std::size_t i));
+
 /// A circular orbit above the rotating earth.
 struct Orbit {
   double inclination;  ///< degrees

@@ -391,41 +391,42 @@ constexpr std::pair<const char*, std::vector<SinglePoint> State::Pair::*> kHalve
 constexpr std::pair<const char*, float SinglePoint::*> kComponents[] = {
     {"x", &SinglePoint::x}, {"y", &SinglePoint::y}, {"z", &SinglePoint::z}};
 
-/// Calls visit(its name, vectors, component) for each column of pair k.
-template <class Pair, class Visit>
-void for_each_column(Pair& pair, std::size_t k, const Visit& visit) {
-  for (const auto& [half, vectors] : kHalves)
-    for (const auto& [letter, component] : kComponents)
-      visit(fmt::format("scvt_{}_{}_{}", half, k, letter), pair.*vectors, component);
+/// The columns of each pair in the notation of kHalves and kComponents: visit(name, vectors, component).
+template <class Pairs, class Visit>
+void for_each_column(Pairs& pairs, const Visit& visit) {
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    for (const auto& [half, vectors] : kHalves)
+      for (const auto& [letter, component] : kComponents)
+        visit(fmt::format("scvt_{}_{}_{}", half, k + 1, letter), pairs[k].*vectors, component);
 }
 
 files::Columns columns_of(const State& state) {
   files::Columns columns;
-  for (std::size_t k = 0; k < state.pairs.size(); ++k)
-    for_each_column(state.pairs[k], k + 1,
-                    [&](const std::string& name, const std::vector<SinglePoint>& vectors, auto component) {
-                      columns.push_back({name});
-                      for (const SinglePoint& v : vectors) columns.back().numbers.push_back(v.*component);
-                    });
+  for_each_column(state.pairs, [&](const std::string& name, const auto& vectors, auto component) {
+    columns.push_back({name});
+    for (const SinglePoint& v : vectors) columns.back().numbers.push_back(v.*component);
+  });
   return columns;
 }
 
-/// The pairs in the file; empty if it does not have all of them. On other ranks than 0 as many, of no
-/// generators.
-std::vector<State::Pair> pairs_in(const files::Nodes& start, bool is_rank_0) {
-  std::vector<State::Pair> pairs(static_cast<std::size_t>(count_in(start, kPairs, 0)));
+std::size_t count_of_pairs(const files::Nodes& start) {
+  constexpr std::int64_t kMost = 100;  // more than any run has
+  return static_cast<std::size_t>(std::min(count_in(start, kPairs, 0), kMost));
+}
+
+/// The pairs in the file; empty if it does not have all of them.
+std::vector<State::Pair> pairs_in(const files::Nodes& start) {
+  std::vector<State::Pair> pairs(count_of_pairs(start));
   bool has_all = true;
-  for (std::size_t k = 0; is_rank_0 && has_all && k < pairs.size(); ++k)
-    for_each_column(pairs[k], k + 1,
-                    [&](const std::string& name, std::vector<SinglePoint>& vectors, auto component) {
-                      const files::Column* const column = find(start.columns, name);
-                      vectors.resize(start.points.size());
-                      has_all = has_all && column != nullptr && !column->is_text();
-                      for (std::size_t i = 0; has_all && i < vectors.size(); ++i) {
-                        vectors[i].*component = static_cast<float>(column->numbers[i]);
-                        has_all = std::isfinite(vectors[i].*component);
-                      }
-                    });
+  for_each_column(pairs, [&](const std::string& name, auto& vectors, auto component) {
+    const files::Column* const column = find(start.columns, name);
+    vectors.resize(start.points.size());
+    has_all = has_all && column != nullptr && !column->is_text();
+    for (std::size_t i = 0; has_all && i < vectors.size(); ++i) {
+      vectors[i].*component = static_cast<float>(column->numbers[i]);
+      has_all = std::isfinite(vectors[i].*component);
+    }
+  });
   return has_all ? pairs : std::vector<State::Pair>();
 }
 
@@ -442,10 +443,13 @@ Tessellation tessellation_of(Communicator& ranks, files::Nodes& start, Options& 
         options.mark = count_in(start, kMark, 0);
         point_sets::parse(note(start.notes, kEnergy), options.energy);
         t.state.exponent = static_cast<int>(count_in(start, kExponent, 0, -5000));
-        if (options.method == Method::newton && has_density_of(start.notes, options))
-          t.state.pairs = pairs_in(start, ranks.rank() == 0);
+        const bool use_pairs = options.method == Method::newton && has_density_of(start.notes, options);
+        if (ranks.rank() > 0) {  // as many pairs, of no generators
+          t.state.pairs.resize(use_pairs ? count_of_pairs(start) : 0);
+          return;
+        }
+        if (use_pairs) t.state.pairs = pairs_in(start);
         have_pairs.value = !t.state.pairs.empty();
-        if (ranks.rank() > 0) return;
         triangulate(start);  // reports wrong nodes with their lines
         t.state.generators = engine::unit_vectors(std::move(start.points));
         t.numbers.resize(t.state.generators.size());
@@ -662,21 +666,10 @@ files::Nodes read_start(Communicator& ranks, const Options& options) {
   return start;
 }
 
-/// Several ranks read files of widths and densities, but only rank 0 has stdin.
-void expect_files(const Options& options) {
-  for (const std::string& file : {options.density_file, options.width_file, options.width_region,
-                                  options.region, options.width_distance})
-    if (file == "-" || file.rfind("-:", 0) == 0)
-      throw std::runtime_error(
-          "--density-file -, --width-file -, --width-region -, --width-distance -, --region -: several ranks "
-          "cannot read stdin: name a file");
-}
-
 /// The command, on all ranks.
 void scvt(Options& options, Ranks& ranks) {
   Communicator& communicator = ranks.communicator();
   in_agreement_with_caller(communicator, [&] {
-    if (communicator.size() > 1) expect_files(options);
     if (communicator.rank() > 0) return;
     for (const Output* const output : {&options.output, &options.checkpoint})
       if (!output->file.empty())

@@ -167,26 +167,22 @@ def test_command_lines_that_are_refused():
             "triangulate octahedron.txt --radius 6371229 -o mesh.off": "--radius: only MPAS meshes have a radius",
             "triangulate octahedron.txt --radius=-1 -o a.mpas.nc": "--radius: '-1' is not a number of metres above 0",
             "convert octahedron.txt --edges -o mesh.off": "--edges: only UGRID meshes have edges",
-            "triangulate octahedron.txt -o mesh.off --to potato": "--to: 'potato' is none of ugrid, mpas",
             "triangulate octahedron.txt -o mesh.off --to ugird":
                 "--to: 'ugird' is none of ugrid, mpas, scrip, esmf, vtu, off, gmsh, fesom, lists, gmt, geojson, csv, xyz, "
                 "lonlat, nodes, raw; did you mean ugrid?",
             "triangulate octahedron.txt -o mesh.off --duplicates frist":
                 "--duplicates: 'frist' is none of error, first, mean; did you mean first?",
             "points rndom 10": "earthquakes; did you mean random?",
-            "points potato 10": "unknown point set 'potato'",
             "points random 10 -o mesh.off":
                 "points are nodes, not a mesh: give --to xyz, lonlat, nodes, csv, geojson or raw",
             "triangulate octahedron.txt -o mesh.off --units gradians": "degrees",
             "polygons": "there is no subcommand 'polygons': expected triangulate, voronoi, info",
             "triangluate octahedron.txt -o mesh.off": "no subcommand 'triangluate'; did you mean triangulate?",
             "triangulate octahedron.txt --outptu mesh.off": "there is no option --outptu; did you mean --output?",
-            "triangulate octahedron.txt --unit=degrees -o a.off": "there is no option --unit; did you mean --units?",
             "--qiet info octahedron.txt": "there is no option --qiet; did you mean --quiet?",
             "info octahedron.txt --potato": "there is no option --potato\n",
             "info octahedron.txt more.txt": "expected",
-            "points random 1.5": "'1.5' is not a whole number",
-            "points random 1e400": "'1e400' is not a whole number"}.items():
+            "points random 1.5": "'1.5' is not a whole number"}.items():
         refuses(2, arguments, words)
     refuses(1, "voronoi octahedron.txt --clip-to a.gpkg -o failed.off", "a.gpkg: a GeoPackage: convert it first, by")
     assert output("points random 1e3").count("\n") == 1000
@@ -297,14 +293,13 @@ def test_near_nodes():
         output(command + " --units degrees")
         kept = messages(f"{command} {keep} 1mm", "near.csv: 1 node dropped that is within 1mm of earlier ones$")
         assert " apart on the Earth" not in kept
-    for within, count in (("0.09mm", 10), ("0.11mm", 9), ("1.2m", 8), ("0.0011km", 8), ("110cm", 8), ("1e-8deg", 9),
-                          ("1e-11rad", 10), ("0.00016rad", 7), ("89deg", 7)):
+    for within, count in ("0.09mm", 10), ("0.11mm", 9), ("0.0011km", 8), ("1e-8deg", 9), ("0.00016rad", 7):
         assert output(f"convert near.csv {keep} {within} -o - --to csv").count("\n") == count, within
     mean = output("convert near.csv --units degrees --duplicates mean --duplicates-within 2km -o - --to csv")
     assert mean.splitlines()[1] == "0,0,4"
     refuses(1, "triangulate near.csv --units degrees --duplicates-within 1mm -o failed.off", "near.csv: node 1 (line 2) and "
             "node 7 (line 8) are within 1mm of each other: remove one, or say --duplicates first")
-    for within in "1", "1foot", "mm", "-1mm", "90deg", "10008km", "nanmm":
+    for within in "1", "1foot", "-1mm", "90deg":
         refuses(2, f"triangulate near.csv --duplicates-within={within} -o a.off", f"--duplicates-within: '{within}': expected")
 
 
@@ -610,7 +605,7 @@ def test_cells_in_regions_and_polygons():
              "cap.txt: 100,110,0,10 holds no part of the cells that is wider than rounding"),
             (1, "nodes.txt --clip-to 0,1e-13,0,1e-13", "0,1e-13,0,1e-13 holds no part of the cells")):
         refuses(code, f"voronoi {arguments} -o failed.csv", words)
-    for box in "1,2,3", "10,10,0,1", "0,10,20,20", "0,10,-91,0", "0,10,0,91", "0,361,0,1", "-200,170,0,1":
+    for box in "10,10,0,1", "0,10,20,20", "0,10,-91,0", "-200,170,0,1":
         refuses(2, f"voronoi nodes.txt --clip-to={box} -o failed.csv", f"--clip-to: '{box}'")
     # If the nodes surround the sphere, the hull cuts nothing.
     messages("voronoi nodes.txt --clip-to-hull -o hull.off",
@@ -807,15 +802,11 @@ def test_grids():
     assert axes(part) == ([170, 180, 190], [-30, -20, -10])
     assert axes(grid("--box 170,-170,-30,-10 --grid-step 10")) == ([175, 185], [-25, -15])
     assert grid("--registration node --to-grid 3x3 --box 170,-170,-30,-10") == part
-    # The same values for equal meridians with other numbers.
-    west = grid("--registration node --box=-190,-170,-30,-10 --grid-step 10")
-    assert [value for _, _, value in west] == [value for _, _, value in part]
     for method in "linear", "natural", "cubic":
         everywhere = grid(f"--method {method} --registration node --box 0,360,-90,90 --grid-step 30")
         assert axes(everywhere) == (list(range(0, 360, 30)), list(range(-90, 91, 30)))
         for pole in -90, 90:  # one place, one value
             assert len({value for _, lat, value in everywhere if lat == pole}) == 1
-    assert grid("--method cubic --registration node --box 0,360,-90,90 --to-grid 7x12") == everywhere
     # CSV: a header, and nothing where a value is missing.
     write("region.txt", with_value(output("points cap:0.3 50"), 7))
     output("interpolate region.txt --grid-step 30 -o region.csv")
@@ -936,14 +927,6 @@ def test_scvt_densities_in_files():
     refuses(1, "-q scvt --start six.nodes.nc --evaluations 7 -o failed.nc", "two.txt: cannot be opened")
     messages("scvt --start start.txt --evaluations 0 -o a.off",
              "^pstripack: start.txt: holds no density: constant; say --density or widths for another one$")
-    # Of any size (issue 39: "converged", gradient nan). Generators that are copies of poles up to rounding.
-    for value in "1e-200", "1e308":
-        write("size.txt", with_value(places, value))
-        messages("scvt 100 --density-file size.txt --tolerance 1e-2 -o size.off",
-                 "converged to 0.01: gradient 0.00[0-9]*, energy [0-9]")
-    write("copies.txt", OCTAHEDRON + "6.1e-17 0 1\n0 6.1e-17 1\n-6.1e-17 0 1\n0 -6.1e-17 1\n")
-    messages("scvt --start copies.txt --tolerance 1e-2 -o copies.off",
-             "10 generators, .* converged to 0.01: gradient 0.00[0-9]*, energy 2")
     # On a grid.
     field = output("points latlon 3000 -o - --to lonlat").splitlines()
     write("values.txt", "".join(f"{line} {2 + math.sin(math.radians(float(line.split()[1])))!r}\n" for line in field))
@@ -1094,8 +1077,6 @@ def test_scvt_generators_and_densities_that_are_refused():
     for text, words in (
             (with_value(half, 1), "a.txt: the density is not known on the whole sphere: the nodes leave out lon "),
             (with_value(OCTAHEDRON, lambda line: 0 if line == 3 else 1), "a.txt: node 4 (line 4): density 0: must be positive"),
-            (with_value(OCTAHEDRON, lambda line: "1e290" if line < 3 else "1e-290"), " elsewhere: the ratio is too large"),
-            (with_value(OCTAHEDRON, "1.7e308"), "the energy is beyond the largest double"),
             # Widths are no density, whatever the file says of itself.
             *(("".join([f"lon lat {name}\n", *around]),
                f"a.txt: {name} is a width, not a density (width^-4): say --width-file in place of --density-file")
@@ -1225,7 +1206,7 @@ def test_ranks_write_the_same_bytes():
         messages(command)
     serial = [read(name) for name in ("a.lists", "a.off", "a.txt", "c.off")]
     of_few = output("triangulate - -o - --to lists", few)
-    for ranks in 1, 2, 3:
+    for ranks in 1, 3:
         for command in commands:
             said = on_ranks(ranks, command)
             assert said.count("pstripack:") == (not command.startswith("-q")), said
@@ -1260,16 +1241,15 @@ def test_in_a_job_of_several_ranks_pstripack_must_be_told_to_work_alone(options,
 
 @needs_ranks
 @needs_netcdf
-@pytest.mark.parametrize("ranks, threads, suffix", [(2, 1, "nc"), (3, 2, "mpas.nc")])
-def test_scvt_ranks_write_the_same_bytes(ranks, threads, suffix, monkeypatch):
-    command = f"scvt 300 --density bump --tolerance 1e-9 --evaluations 14 --every 4 --checkpoint one.nc -o one.{suffix}"
+def test_scvt_ranks_write_the_same_bytes(monkeypatch):
+    command = "scvt 300 --density bump --tolerance 1e-9 --evaluations 14 --every 4 --checkpoint one.nc -o one.mpas.nc"
     output(command)
     os.mkdir("ranks")  # files hold the command: the same in both folders
     monkeypatch.chdir("ranks")
-    on_ranks(ranks, f"-q --threads {threads} {command}")
+    on_ranks(3, f"-q --threads 2 {command}")
     for name in sorted(os.listdir()):
         assert Path(name).read_bytes() == Path("..", name).read_bytes(), name
-    assert "one." + suffix in os.listdir()
+    assert "one.mpas.nc" in os.listdir()
 
 
 @needs_ranks

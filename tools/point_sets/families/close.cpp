@@ -7,12 +7,10 @@
 namespace point_sets {
 namespace {
 
-Points falling_nodes(std::size_t n, double decades, Random& random) {
+Point falling_node(double decades, Random& random, std::size_t) {
   const Frame f = frame(centre());
-  return distinct(n, [&] {
-    const double s = ten_to_minus(decades * random.uniform()), angle = random.uniform(0, 360);
-    return at(f, s * cos_degrees(angle), s * sin_degrees(angle));
-  });
+  const double s = ten_to_minus(decades * random.uniform()), angle = random.uniform(0, 360);
+  return at(f, s * cos_degrees(angle), s * sin_degrees(angle));
 }
 
 /// The double `steps` doubles after `value`.
@@ -34,18 +32,14 @@ Points ulp_groups_nodes(std::size_t n, double size, Random& random) {
   });
 }
 
-Points axis_cap_nodes(std::size_t n, double radius, Random& random) {
-  return distinct(n, [&] {
-    const auto [u, v] = in_disc(random);
-    return Point{1, radius * u, radius * v};
-  });
+Point axis_cap_node(double radius, Random& random, std::size_t) {
+  const auto [u, v] = in_disc(random);
+  return Point{1, radius * u, radius * v};
 }
 
-Points nest_nodes(std::size_t n, double decades, Random& random) {
-  return distinct(n, [&] {
-    const double s = ten_to_minus(decades * random.uniform()), angle = random.uniform(0, 360);
-    return Point{1, s * cos_degrees(angle), s * sin_degrees(angle)};
-  });
+Point nest_node(double decades, Random& random, std::size_t) {
+  const double s = ten_to_minus(decades * random.uniform()), angle = random.uniform(0, 360);
+  return Point{1, s * cos_degrees(angle), s * sin_degrees(angle)};
 }
 
 /// Two nodes and their mirror images lie exactly on one circle: ties between coordinates of all magnitudes.
@@ -61,33 +55,30 @@ Points mirrored_nest_nodes(std::size_t n, double decades, Random& random) {
   });
 }
 
-Points rays_nodes(std::size_t n, double decades, Random& random) {
+Point rays_node(double decades, Random& random, std::size_t i) {
   constexpr std::size_t rays = 64;
-  bool is_first = true;
-  return distinct(n, [&] {
-    if (is_first) return is_first = false, Point{1, 0, 0};
-    const double s = ten_to_minus(decades * random.uniform()),
-                 angle = 360 * static_cast<double>(random.below(rays)) / rays;
-    return Point{1, s * cos_degrees(angle), s * sin_degrees(angle)};
-  });
+  if (i == 0) return {1, 0, 0};
+  const double s = ten_to_minus(decades * random.uniform()),
+               angle = 360 * static_cast<double>(random.below(rays)) / rays;
+  return {1, s * cos_degrees(angle), s * sin_degrees(angle)};
 }
 
 }  // namespace
 
 std::vector<Family> close_families() {
   return {
-      {"falling", "14", "n", "density that falls with the distance from a place over that many decades",
-       falling_nodes},
+      drawn("falling", "14", "density that falls with the distance from a place over that many decades",
+            falling_node),
       {"ulp-groups", "2", "n", "uniform groups of that many nodes, neighbours are one last bit apart",
        ulp_groups_nodes},
-      {"axis-cap", "1e-150", "n", "(1, y, z) in a disc of that radius; lengths are not rounded to 1",
-       axis_cap_nodes},
-      {"nest", "150", "n",
-       "(1, y, z) at distances from (1, 0, 0) over that many decades; lengths are not rounded to 1",
-       nest_nodes},
+      drawn("axis-cap", "1e-150", "(1, y, z) in a disc of that radius; lengths are not rounded to 1",
+            axis_cap_node),
+      drawn("nest", "150",
+            "(1, y, z) at distances from (1, 0, 0) over that many decades; lengths are not rounded to 1",
+            nest_node),
       {"mirrored-nest", "150", "n", "nest, every second node with y and z of the one before exchanged",
        mirrored_nest_nodes},
-      {"rays", "100", "n", "nest along 64 rays, and (1, 0, 0)", rays_nodes},
+      drawn("rays", "100", "nest along 64 rays, and (1, 0, 0)", rays_node),
   };
 }
 

@@ -25,7 +25,7 @@ Points clusters_nodes(std::size_t n, double radius, Random& random) {
   return half_in_caps(n, uniform(8, of_centres), radius, random);
 }
 
-Points dense_cap_nodes(std::size_t n, double radius, Random& random) {
+Points dense_cap_node(std::size_t n, double radius, Random& random) {
   return half_in_caps(n, {centre()}, radius, random);
 }
 
@@ -33,9 +33,7 @@ Points antipodal_nodes(std::size_t n, double radius, Random& random) {
   return caps(n, {centre(), -1.0 * centre()}, radius, random);
 }
 
-Points cap_nodes(std::size_t n, double radius, Random& random) {
-  return distinct(n, [&] { return in_cap(random, centre(), radius); });
-}
+Point cap_node(double radius, Random& random, std::size_t) { return in_cap(random, centre(), radius); }
 
 Points box_nodes(std::size_t n, double width, Random&) {
   const std::size_t m = nearest(n, 2, [](std::size_t k) { return k * k; });
@@ -113,9 +111,9 @@ std::vector<Family> uneven_families() {
   return {
       {"variable", "1e4", "n", "smooth density, its largest over its smallest value", variable_nodes},
       {"clusters", "1e-3", "n", "half uniform, half in eight caps of that radius", clusters_nodes},
-      {"dense-cap", "1e-5", "n", "half uniform, half in one cap of that radius", dense_cap_nodes},
+      {"dense-cap", "1e-5", "n", "half uniform, half in one cap of that radius", dense_cap_node},
       {"antipodal", "0.1", "n", "two caps of that radius, opposite each other", antipodal_nodes},
-      {"cap", "0.0175", "n", "uniform in a cap of that radius", cap_nodes},
+      drawn("cap", "0.0175", "uniform in a cap of that radius", cap_node),
       {"box", "0.00175", "m^2", "regional box of that width, row after row", box_nodes},
       {"strip", "1e-9", "n", "along a tilted great circle, in a strip of that width", strip_nodes},
       {"tee", "1e-8", "n", "half along an arc, half towards its middle, in strips of that width", tee_nodes},
