@@ -63,9 +63,8 @@ std::unique_ptr<Density> density_between(const std::vector<Point>& nodes, std::v
 
 std::unique_ptr<Density> density_on_grid(const files::Grid& grid, const std::vector<double>& values) {
   return std::make_unique<DensityBy>(
-      [table = GridValues(table_of(grid, values))](std::size_t n, const Point* p, double* value) {
-        table.at(n, p, value);
-      });
+      [table = GridValues<double>(table_of<double>(grid, values))](std::size_t n, const Point* p,
+                                                                   double* value) { table.at(n, p, value); });
 }
 
 }  // namespace methods

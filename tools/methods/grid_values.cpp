@@ -86,13 +86,15 @@ std::int64_t Axis::found(double x) const {
   return std::upper_bound(ticks_.begin() + 1, ticks_.end() - 1, x) - ticks_.begin() - 1;
 }
 
-GridValues::GridValues(Table table)
+template <class Value>
+GridValues<Value>::GridValues(TableOf<Value> table)
     : columns_(table.lon.size()),
       lon_(from_180_west(std::move(table.lon))),
       lat_(std::move(table.lat)),
       values_(std::move(table.values)) {}
 
-void GridValues::at(std::size_t n, const Point* p, double* value) const {
+template <class Value>
+void GridValues<Value>::at(std::size_t n, const Point* p, double* value) const {
   constexpr std::size_t kBatch = 256;
   double lon[kBatch], lat[kBatch];
   const double west = lon_.first();
@@ -108,15 +110,19 @@ void GridValues::at(std::size_t n, const Point* p, double* value) const {
     for (std::size_t i = 0; i < count; ++i) {
       const auto [column, east] = lon_.place(lon[i]);
       const auto [row, north] = lat_.place(lat[i]);
-      const double* const low = values_.data() + row * static_cast<std::int64_t>(columns_) + column;
-      const double* const high = low + columns_;
+      const Value* const low = values_.data() + row * static_cast<std::int64_t>(columns_) + column;
+      const Value* const high = low + columns_;
       value[first + i] = in_range((1 - north) * ((1 - east) * low[0] + east * low[1]) +
                                   north * ((1 - east) * high[0] + east * high[1]));
     }
   }
 }
 
-Table table_of(const files::Grid& grid, const std::vector<double>& values) {
+template class GridValues<float>;
+template class GridValues<double>;
+
+template <class Value>
+TableOf<Value> table_of(const files::Grid& grid, const std::vector<double>& values) {
   // Columns from the first one eastwards, without a last column that repeats the first one 360 degrees on.
   const double west = grid.lon.front();
   const auto east_of_first = [&](std::size_t i) {
@@ -141,11 +147,11 @@ Table table_of(const files::Grid& grid, const std::vector<double>& values) {
     throw std::runtime_error(fmt::format(
         "the grid ends at latitudes {} and {}: a density must cover the sphere", lat.front(), lat.back()));
 
-  std::vector<double> table;
+  std::vector<Value> table;
   const auto add_row = [&](std::size_t row) {
     const double* const v = &values[row * grid.lon.size()];
-    for (const std::size_t c : columns) table.push_back(v[c]);
-    table.push_back(v[columns[0]]);
+    for (const std::size_t c : columns) table.push_back(static_cast<Value>(v[c]));
+    table.push_back(static_cast<Value>(v[columns[0]]));
   };
   const auto add_pole = [&](std::size_t row) {
     const auto count = static_cast<double>(columns.size());
@@ -154,7 +160,8 @@ Table table_of(const files::Grid& grid, const std::vector<double>& values) {
       sum += values[row * grid.lon.size() + c];
       mean += values[row * grid.lon.size() + c] / count;  // cannot overflow
     }
-    table.insert(table.end(), columns.size() + 1, std::isfinite(sum) ? sum / count : in_range(mean));
+    table.insert(table.end(), columns.size() + 1,
+                 static_cast<Value>(std::isfinite(sum) ? sum / count : in_range(mean)));
   };
   if (lat.front() > -90) add_pole(rows.front());
   for (const std::size_t row : rows) add_row(row);
@@ -163,5 +170,7 @@ Table table_of(const files::Grid& grid, const std::vector<double>& values) {
   if (lat.back() < 90) lat.push_back(90);
   return {std::move(lon), std::move(lat), std::move(table)};
 }
+template TableOf<float> table_of(const files::Grid&, const std::vector<double>&);
+template TableOf<double> table_of(const files::Grid&, const std::vector<double>&);
 
 }  // namespace methods

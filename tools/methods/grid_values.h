@@ -11,14 +11,19 @@
 namespace methods {
 
 /// Values on rows from pole to pole, in degrees. The first column is repeated at the end, 360 degrees on.
-struct Table {
-  std::vector<double> lon, lat, values;
+template <class Value>
+struct TableOf {
+  std::vector<double> lon, lat;
+  std::vector<Value> values;
 };
+/// Of widths: maps are large, and seven digits are enough. Densities may have any size.
+using Table = TableOf<float>;
 
 /// The table of values on a grid, row after row of latitude. Longitudes must go once around the globe. At a
 /// pole without a row it gets one with the mean of the last row. Throws std::runtime_error, saying why, if
-/// the axes are no such grid.
-Table table_of(const files::Grid& grid, const std::vector<double>& values);
+/// the axes are no such grid. Value: float, double.
+template <class Value>
+TableOf<Value> table_of(const files::Grid& grid, const std::vector<double>& values);
 
 /// Increasing numbers; finds the interval that contains a number.
 class Axis {
@@ -49,16 +54,17 @@ class Axis {
   bool is_equidistant_;  ///< to a thousand-millionth of an interval
 };
 
+template <class Value>
 class GridValues {
  public:
-  explicit GridValues(Table table);
+  explicit GridValues(TableOf<Value> table);
   /// The values at unit vectors, positive and finite if those of the table are.
   void at(std::size_t n, const files::Point* p, double* value) const;
 
  private:
   std::size_t columns_;
   Axis lon_, lat_;
-  std::vector<double> values_;
+  std::vector<Value> values_;
 };
 
 /// A mean of positive finite values, which its rounding may have made 0 or infinite.

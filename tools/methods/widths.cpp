@@ -50,7 +50,7 @@ class GradientLimit {
     for (const double lon : table.lon) east_.push_back({std::cos(lon * kDegree), std::sin(lon * kDegree), 0});
     for (const double lat : table.lat)
       up_.push_back({std::fabs(lat) == 90 ? 0 : std::cos(lat * kDegree), 0, std::sin(lat * kDegree)});
-    given_.assign(table.values.begin(), table.values.end());
+    given_ = table.values;
     source_.resize(given_.size());
     std::iota(source_.begin(), source_.end(), std::uint32_t{0});
   }
@@ -58,7 +58,7 @@ class GradientLimit {
   /// `inside`: by place, without the last column. Only places whose entry is `sources` keep others low, and
   /// only other ones are lowered.
   Lowered run(const std::vector<bool>* inside = nullptr, bool sources = true) {
-    std::vector<double>& width = table_.values;
+    std::vector<float>& width = table_.values;
     const auto is_source = [&](Place i) { return inside == nullptr || (*inside)[i - i / row_] == sources; };
     for_each_place([&](Place i) {
       if (!is_source(i)) return;
@@ -66,19 +66,19 @@ class GradientLimit {
       for_each_neighbour(i, [&](Place n) {  // a chord is shorter than its arc
         lowers = lowers || (width[i] < width[n] && width[i] + slope_ * chord(i, n) < width[n]);
       });
-      if (lowers) queue_.emplace(-static_cast<float>(width[i]), i);
+      if (lowers) queue_.emplace(-width[i], i);
     });
     while (!queue_.empty()) {
       const auto [value, i] = queue_.top();
       queue_.pop();
-      if (-value != static_cast<float>(width[i])) continue;  // it was lowered again
+      if (-value != width[i]) continue;  // it was lowered again
       const Place s = source_[i];
       for_each_neighbour(i, [&](Place n) {
-        const double offer = width[s] + slope_ * arc(s, n);
+        const auto offer = static_cast<float>(width[s] + slope_ * arc(s, n));
         if (!(offer < width[n]) || (inside != nullptr && is_source(n))) return;
         width[n] = offer;
         source_[n] = s;
-        queue_.emplace(-static_cast<float>(offer), n);
+        queue_.emplace(-offer, n);
       });
     }
     return finish();
@@ -87,11 +87,12 @@ class GradientLimit {
   /// After run(&inside): the cones begin `flat` times their own value and `more` km from their source, and
   /// end at `most`.
   void flatten(const std::vector<bool>& inside, double flat, double more, double most) {
-    std::vector<double>& width = table_.values;
+    std::vector<float>& width = table_.values;
     for_each_place([&](Place i) {
       if (inside[i - i / row_]) return;
       const double value = width[source_[i]], from = radius_ * arc(source_[i], i) - flat * value - more;
-      width[i] = source_[i] == i ? most : std::min(most, value + slope_ / radius_ * std::max(0.0, from));
+      width[i] = static_cast<float>(
+          source_[i] == i ? most : std::min(most, value + slope_ / radius_ * std::max(0.0, from)));
     });
     finish();
   }
@@ -288,7 +289,8 @@ Table widths_of_name(const std::string& name) {
   for (int row = -90 * kRowsPerDegree; row <= 90 * kRowsPerDegree; ++row) {
     table.lat.push_back(row / static_cast<double>(kRowsPerDegree));
     const double lat = std::fabs(table.lat.back());
-    table.values.insert(table.values.end(), table.lon.size(), name == "ec60to30" ? ec(lat) : rrs(lat));
+    table.values.insert(table.values.end(), table.lon.size(),
+                        static_cast<float>(name == "ec60to30" ? ec(lat) : rrs(lat)));
   }
   return table;
 }
@@ -302,12 +304,12 @@ void set_outside(Table& table, const std::vector<bool>& inside, double gradient,
   const std::size_t columns = table.lon.size() - 1;
   double widest = 0;
   for (std::size_t i = 0; i < inside.size(); ++i)
-    if (inside[i]) widest = std::max(widest, table.values[i / columns * (columns + 1) + i % columns]);
+    if (inside[i]) widest = std::max<double>(widest, table.values[i / columns * (columns + 1) + i % columns]);
   most = std::max(most, widest);
   for (std::size_t r = 0; r < table.lat.size(); ++r)
     for (std::size_t c = 0; c <= columns; ++c)
       if (!inside[r * columns + c % columns])
-        table.values[r * (columns + 1) + c] = most + gradient * (flat * widest + more);
+        table.values[r * (columns + 1) + c] = static_cast<float>(most + gradient * (flat * widest + more));
   GradientLimit limit(table, gradient, radius);
   limit.run(&inside);
   limit.flatten(inside, flat, more, most);
@@ -322,7 +324,9 @@ Table widths_of_regions(const std::vector<files::WidthRegion>& regions, const Wi
   for (std::size_t r = 0; r < rows; ++r) {
     std::vector<Point> places;
     for (const double lon : t.lon) places.push_back(point_sets::from_degrees(lon, t.lat[r]));
-    elsewhere.at(places.size(), places.data(), radius, &t.values[r * (columns + 1)]);
+    std::vector<double> widths(places.size());
+    elsewhere.at(places.size(), places.data(), radius, widths.data());
+    std::copy(widths.begin(), widths.end(), &t.values[r * (columns + 1)]);
   }
 
   // Wider regions first: narrower ones cut into them.
@@ -337,8 +341,9 @@ Table widths_of_regions(const std::vector<files::WidthRegion>& regions, const Wi
     for (std::size_t r = 0; r < rows; ++r)
       for_each_inside(*region, t.lat[r], columns, [&](std::size_t c) {
         has_places = inside[r * columns + c] = true;
-        double& value = t.values[r * (columns + 1) + c];
-        value = is_wide ? region->width : std::min(value, region->width);
+        float& value = t.values[r * (columns + 1) + c];
+        const auto width = static_cast<float>(region->width);
+        value = is_wide ? width : std::min(value, width);
         if (c == 0) t.values[r * (columns + 1) + columns] = value;
       });
     const auto fail = [&](const std::string& of) {
@@ -369,7 +374,7 @@ WidthDistance::WidthDistance(const std::string& text) {
 Table widths_of_distance(const std::vector<std::vector<std::pair<double, double>>>& lines,
                          const WidthDistance& given, double radius) {
   Table t = grid_for(given.near, radius);
-  std::fill(t.values.begin(), t.values.end(), given.far);
+  std::fill(t.values.begin(), t.values.end(), static_cast<float>(given.far));
   const double slope = (given.far - given.near) / given.distance, step = t.lat[1] - t.lat[0];
   const std::size_t columns = t.lon.size() - 1;
   const auto lower_around = [&](double lon, double lat) {
@@ -379,8 +384,9 @@ Table widths_of_distance(const std::vector<std::vector<std::pair<double, double>
     for (const std::size_t r : {row, row + 1})
       for (const std::size_t c : {column % columns, (column + 1) % columns}) {
         const Point d = minus(p, point_sets::from_degrees(t.lon[c], t.lat[r]));
-        double& value = t.values[r * (columns + 1) + c];
-        value = std::min(value, given.near + slope * radius * 2 * std::asin(std::sqrt(dot(d, d)) / 2));
+        float& value = t.values[r * (columns + 1) + c];
+        const double width = given.near + slope * radius * 2 * std::asin(std::sqrt(dot(d, d)) / 2);
+        value = std::min(value, static_cast<float>(width));
       }
   };
   for (const auto& line : lines)
@@ -409,9 +415,9 @@ double cells_of(const Table& t, double radius) {
       const double up = (std::asin(z) / kDegree - t.lat[row]) / height;
       double sum = 0;
       for (std::size_t column = 0; column + 1 < t.lon.size(); ++column) {
-        const double* const low = &t.values[row * t.lon.size() + column];
-        const double* const high = low + t.lon.size();
-        const double west = low[0] + up * (high[0] - low[0]), east = low[1] + up * (high[1] - low[1]);
+        const float* const low = &t.values[row * t.lon.size() + column];
+        const float* const high = low + t.lon.size();
+        const double west = (1 - up) * low[0] + up * high[0], east = (1 - up) * low[1] + up * high[1];
         for (int i = 0; i < 3; ++i) {
           const double ratio = radius / (west + (1 + kPlaces[i]) / 2 * (east - west));
           sum += kWeights[i] / 18 * ratio * ratio * (t.lon[column + 1] - t.lon[column]) * kDegree;

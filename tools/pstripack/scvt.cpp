@@ -227,7 +227,7 @@ methods::Widths widths_in_file(const Options& options) {
                      middle, nodes.value.name, nodes.file));
   methods::Table table;
   try {
-    table = methods::table_of(nodes.grid, km);
+    table = methods::table_of<float>(nodes.grid, km);
   } catch (const std::runtime_error& e) {
     fail(e.what());
   }

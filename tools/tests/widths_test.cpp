@@ -27,12 +27,12 @@ std::vector<double> ticks(double first, double step, int count) {
   return values;
 }
 
-template <class Width>
-Table table(const files::Grid& grid, const Width& width) {
+template <class Value = float, class Width>
+TableOf<Value> table(const files::Grid& grid, const Width& width) {
   std::vector<double> km;
   for (const double lat : grid.lat)
     for (const double lon : grid.lon) km.push_back(width(lon, lat));
-  return table_of(grid, km);
+  return table_of<Value>(grid, km);
 }
 
 TEST(widths, give_their_density_and_number_of_cells) {
@@ -48,8 +48,8 @@ TEST(widths, give_their_density_and_number_of_cells) {
 
 TEST(grid_values, know_longitude_and_latitude) {
   const files::Grid grid{ticks(0, 5, 72), ticks(-90, 7.5, 25)};
-  const GridValues lats(table(grid, [](double, double lat) { return 100 + lat; })),
-      lons(table(grid, [](double lon, double) { return 100 + std::min(lon, 360 - lon); }));
+  const GridValues lats(table<double>(grid, [](double, double lat) { return 100 + lat; })),
+      lons(table<double>(grid, [](double lon, double) { return 100 + std::min(lon, 360 - lon); }));
   std::vector<Point> places = point_sets::make("random", 3000);
   for (const double lon : {0.0, 22.5, 45.0, 67.5, 90.0, 135.0, 180.0, 202.5, 270.0, 315.0})
     for (const double lat : {-90.0, -67.5, -1e-9, 0.0, 22.5, 45.0, 90.0})
@@ -70,7 +70,7 @@ std::vector<double> limited(const Table& t, double gradient, double radius) {
   std::vector<Point> places;
   for (const double lat : t.lat)
     for (const double lon : t.lon) places.push_back(point_sets::from_degrees(lon, lat));
-  std::vector<double> least = t.values;
+  std::vector<double> least(t.values.begin(), t.values.end());
   for (std::size_t i = 0; i < places.size(); ++i)
     for (std::size_t j = 0; j < places.size(); ++j) {
       const Point d = minus(places[i], places[j]);
@@ -102,10 +102,10 @@ TEST(limit_gradient, is_the_condition_for_all_pairs_also_at_poles_and_across_the
         const Lowered told = limit_gradient(lowered, gradient, 6371);
         double most = 0;
         for (std::size_t i = 0; i < expected.size(); ++i) {
-          EXPECT_GE(lowered.values[i], expected[i] * (1 - 1e-12));
+          EXPECT_GE(lowered.values[i], expected[i] * (1 - 1e-7));
           // Where cones meet, a place may keep one that is not the lowest.
           EXPECT_LE(lowered.values[i], expected[i] + gradient * 0.1 * 7.5 * kDegree * 6371);
-          most = std::max(most, t.values[i] - lowered.values[i]);
+          most = std::max<double>(most, t.values[i] - lowered.values[i]);
         }
         EXPECT_NEAR(told.most, most, 1e-4);
         EXPECT_EQ(told.places == 0, most == 0);
@@ -116,14 +116,14 @@ TEST(limit_gradient, changes_nothing_that_is_flat_enough_and_says_what_it_change
   const files::Grid grid{ticks(-180, 5, 73), ticks(-90, 5, 37)};
   const double spacing = 5 * kDegree * 6371;
   Table cone = table(grid, [&](double, double lat) { return 60 + 0.1999 * spacing * (lat + 90) / 5; });
-  const std::vector<double> before = cone.values;
+  const std::vector<float> before = cone.values;
   EXPECT_EQ(limit_gradient(cone, 0.2, 6371).places, 0u);
   EXPECT_EQ(cone.values, before);
   Table peak = table(grid, [&](double lon, double lat) { return lon == 20 && lat == 0 ? 1000 : 100; });
   const Lowered lowered = limit_gradient(peak, 0.2, 6371);
   EXPECT_EQ(lowered.places, 1u);
   EXPECT_EQ(lowered.of, 72u * 35 + 2);
-  EXPECT_NEAR(lowered.most, 900 - 0.2 * spacing, 1e-9);
+  EXPECT_NEAR(lowered.most, 900 - 0.2 * spacing, 1e-4);
   EXPECT_EQ(lowered.lon, 20);
   EXPECT_EQ(lowered.lat, 0);
 }
@@ -206,7 +206,7 @@ files::WidthRegion region(double width, double transition,
   return {{1, {}, std::move(rings)}, width, transition};
 }
 
-double width_at(const GridValues& widths, double lon, double lat) {  // of a place in degrees
+double width_at(const GridValues<float>& widths, double lon, double lat) {  // of a place in degrees
   const Point p = point_sets::from_degrees(lon, lat);
   double value = 0;
   widths.at(1, &p, &value);
@@ -229,7 +229,7 @@ TEST(widths_of_regions, change_over_the_transitions_and_hold_holes_datelines_and
   const GridValues widths(t);
   const auto width = [&](double lon, double lat) { return width_at(widths, lon, lat); };
   for (const double lon : {1.0, 5.0, 39.0}) EXPECT_EQ(width(lon, 0), 30);
-  EXPECT_NEAR(width(20, 0), 120, 1e-9);  // 10 degrees inside the hole
+  EXPECT_NEAR(width(20, 0), 120, 1e-5);  // 10 degrees inside the hole
   EXPECT_NEAR(width(20, 20 + 500 * km), 75, 2);
   EXPECT_NEAR(width(20, 20 + 1001 * km), 120, 2);
   for (const double lon : {171.0, 179.9, -180.0, -179.0, -171.0}) EXPECT_EQ(width(lon, 0), 40);
@@ -238,7 +238,7 @@ TEST(widths_of_regions, change_over_the_transitions_and_hold_holes_datelines_and
   EXPECT_EQ(width(77, 80.5), 50);
   EXPECT_EQ(width(77, 79), 120);
   EXPECT_NEAR(width(90, -20 - 500 * km), 180, 4);
-  EXPECT_NEAR(width(90, -45), 240, 1e-9);
+  EXPECT_NEAR(width(90, -45), 240, 1e-5);
   EXPECT_EQ(width(90, -19), 120);
   EXPECT_THROW(widths_of_regions({region(30, 0, {box(0, 0, 0.2, 0.2)})}, WidthFormula("120km"), 6371),
                std::runtime_error);
