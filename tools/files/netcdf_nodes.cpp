@@ -270,7 +270,7 @@ struct Places {
 /// Throws if there are too many nodes, or too many values for the memory.
 void expect_to_fit(const File& file, const Variable& lat, std::size_t rows, std::size_t columns) {
   if (!file.options().only_axes) file.expect_few(lat, rows, columns);
-  constexpr double kBytes = 28;  // of a value, while widths are limited
+  constexpr double kBytes = 25;  // of a value, while widths are limited
   const double bytes = kBytes * static_cast<double>(rows) * static_cast<double>(columns),
                most = static_cast<double>(pstripack::available_memory()), finer = std::sqrt(bytes / most);
   if (finer > 1)
