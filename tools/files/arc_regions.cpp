@@ -20,7 +20,7 @@ namespace files {
 namespace {
 
 using pstripack::Point;
-using Line = std::vector<Point>;
+using Arcs = std::vector<Point>;
 using Ring = std::vector<std::pair<double, double>>;
 
 /// Adds the arc from a to b, without b, as longitudes and latitudes of a line on the map that is within 2e-7
@@ -41,7 +41,7 @@ void add_arc(const Point& a, const Point& b, Ring& line) {
 
 /// The closed line of arcs on the map, from a turn of the first corner's longitude on. A line around a pole
 /// is closed along the one that gives it the smaller area.
-Ring on_map(const Line& corners, double lon) {
+Ring on_map(const Arcs& corners, double lon) {
   Ring ring{{lon, 0}};
   for (std::size_t i = 0; i < corners.size(); ++i)
     add_arc(corners[i], corners[(i + 1) % corners.size()], ring);
@@ -62,7 +62,7 @@ MapRegion region_of_box(const Region& box) {
   return {0, "", {{{west, south}, {east, south}, {east, north}, {west, north}, {west, south}}}};
 }
 
-MapRegion region_of_arcs(Line corners, const Point& inside) {
+MapRegion region_of_arcs(Arcs corners, const Point& inside) {
   MapRegion region{1, "", {on_map(corners, longitude(corners[0]))}};
   Ring& ring = region.rings[0];
   if (!region.contains(inside)) {  // then all around it
@@ -80,7 +80,7 @@ MapRegion region_of_arcs(Line corners, const Point& inside) {
 MapRegion ellipse_region(double lon, double lat, double a, double b, double turn, int n) {
   const Point centre = point_sets::from_degrees(lon, lat), north = point_sets::from_degrees(lon, lat + 90),
               east = cross(north, centre);
-  Line line;
+  Arcs line;
   for (int k = 0; k < n; ++k) {
     const double angle = 360.0 * k / n, c = point_sets::cos_degrees(angle),
                  s = point_sets::sin_degrees(angle), radius = a * b / std::hypot(a * s, b * c),
@@ -96,7 +96,7 @@ MapRegion ellipse_region(double lon, double lat, double a, double b, double turn
 
 void follow_great_circles(const std::string& name, MapRegion& region) {
   for (Ring& ring : region.rings) {
-    Line& line = region.corners.emplace_back();
+    Arcs& line = region.corners.emplace_back();
     for (std::size_t i = 0; i + 1 < ring.size(); ++i) {
       const auto [x, y] = ring[i];
       const auto [to_x, to_y] = ring[i + 1];
@@ -151,7 +151,7 @@ class PtsFile {
       const double north = number("Upper-lat", -90, 90), south = number("Lower-lat", -90, north);
       region = {1, "", {{{-180, south}, {180, south}, {180, north}, {-180, north}, {-180, south}}}};
       for (const double lat : {south, north}) {
-        Line& parallel = region.corners.emplace_back();
+        Arcs& parallel = region.corners.emplace_back();
         for (int k = 0; k < kCorners; ++k)
           parallel.push_back(point_sets::from_degrees(360.0 * k / kCorners, lat));
       }

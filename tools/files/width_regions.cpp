@@ -29,7 +29,7 @@ void make_cap(Line& corners) {
 }
 
 /// The polygons of each feature.
-std::vector<std::pair<Shape, std::vector<MapRegion>>> read(const std::string& file) {
+std::vector<std::pair<Shape, std::vector<MapRegion>>> polygons_of(const std::string& file) {
   std::vector<std::pair<Shape, std::vector<MapRegion>>> all;
   for (Shape& shape : read_shapes(file, "polygons", {"Polygon", "MultiPolygon"})) {
     std::vector<MapRegion> polygons;
@@ -110,14 +110,14 @@ double MapRegion::area() const {
 std::vector<MapRegion> read_polygons(const std::string& file, double radius) {
   if (std::filesystem::path(file).extension() == ".pts") return {read_pts(file, radius)};
   std::vector<MapRegion> all;
-  for (auto& [shape, polygons] : read(file))
+  for (auto& [shape, polygons] : polygons_of(file))
     for (MapRegion& polygon : polygons) all.push_back(std::move(polygon));
   return all;
 }
 
 std::vector<WidthRegion> read_width_regions(const std::string& file) {
   std::vector<WidthRegion> regions;
-  for (const auto& [shape, polygons] : read(file)) {
+  for (const auto& [shape, polygons] : polygons_of(file)) {
     WidthRegion& region = regions.emplace_back();
     region.feature = shape.number;
     for (const MapRegion& polygon : polygons)
