@@ -136,8 +136,7 @@ files::Faces faces_of(const Triangulation& mesh, bool cells) {
     faces.centres = std::move(nodes);
     faces.begin.assign(found.corners.begin.begin(), found.corners.begin.end());
     add_corners(found.corners.values);
-    files::find_half_turns(faces, found.beyond.data(), {faces.centres.data(), faces.centres.size()});
-    files::divide_half_turns(faces);
+    files::divide_half_turns(faces, found.beyond.data(), {faces.centres.data(), faces.centres.size()});
   } else {
     faces.points = std::move(nodes);
     add_corners(mesh.triangles());

@@ -475,7 +475,7 @@ Buffer<Point> Triangulation::cell_centroids() const {
   faces.points.assign(found.vertices.begin(), found.vertices.end());
   faces.begin.assign(found.corners.begin.begin(), found.corners.begin.end());
   for (const std::int32_t corner : found.corners.values) faces.corner.push_back(corner + 1);
-  files::find_half_turns(faces, found.beyond.data(), exact().directions);
+  files::divide_half_turns(faces, found.beyond.data(), exact().directions, -0.9);
   const std::vector<Point> centroids = files::centroids(faces);
   Buffer<Point> result(n_);
   std::copy(centroids.begin(), centroids.end(), result.begin());

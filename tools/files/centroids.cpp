@@ -1,17 +1,15 @@
-#include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "base/parallel_for.h"
 #include "files/measures.h"
 #include "files/mesh.h"
-#include "files/pieces.h"
 #include "geometry/measures.h"
 
 namespace files {
 namespace {
-
-constexpr double kHalfTurn = -0.9;  ///< cosine of the least angle that is nearly half a turn
 
 /// x / sin(x) - 1 for the angle x between two unit vectors: below 0.2 by its series.
 double over_sine_minus_1(const Point& p, const Point& q) {
@@ -28,10 +26,8 @@ double over_sine_minus_1(const Point& p, const Point& q) {
 /// sides, from p to q, of their length in the direction of p x q. Differences from the first corner g, in a
 /// frame with g upwards, keep the digits of small and of thin polygons: with p = g + d and q = g + e the
 /// sides add (length / sine of length) (d x e + g x (e - d)), and the sum of all e - d is 0.
-///
-/// `half_turn(k)`: the normal of the side from corner k, if the side is nearly half a turn; else null.
-template <class PointAt, class HalfTurn>
-Point centroid(std::size_t corners, const PointAt& point, const HalfTurn& half_turn) {
+template <class PointAt>
+Point centroid(std::size_t corners, const PointAt& point) {
   const Point g = point(0), east = unit(cross(std::fabs(g.z) < 0.9 ? Point{0, 0, 1} : Point{1, 0, 0}, g)),
               north = cross(g, east);
   const auto in_frame = [&](const Point& p) -> Point {
@@ -41,17 +37,10 @@ Point centroid(std::size_t corners, const PointAt& point, const HalfTurn& half_t
   Point sum{0, 0, 0}, p = g;
   for (std::size_t k = 0; k < corners; ++k) {
     const Point q = point((k + 1) % corners), d = in_frame(p), e = in_frame(q);
-    if (const Point* const normal = half_turn(k)) {
-      const double angle = std::atan2(dot(*normal, cross(p, q)), dot(p, q)),
-                   turn = angle < 0 ? angle + 2 * kPi : angle;
-      sum = {sum.x + turn * dot(*normal, east) + (e.y - d.y),
-             sum.y + turn * dot(*normal, north) - (e.x - d.x), sum.z + turn * dot(*normal, g)};
-    } else {
-      const Point twice = cross(d, e);
-      const double more = over_sine_minus_1(p, q);
-      sum = {sum.x + (1 + more) * twice.x - more * (e.y - d.y),
-             sum.y + (1 + more) * twice.y + more * (e.x - d.x), sum.z + (1 + more) * twice.z};
-    }
+    const Point twice = cross(d, e);
+    const double more = over_sine_minus_1(p, q);
+    sum = {sum.x + (1 + more) * twice.x - more * (e.y - d.y),
+           sum.y + (1 + more) * twice.y + more * (e.x - d.x), sum.z + (1 + more) * twice.z};
     p = q;
   }
   const Point moment{sum.x * east.x + sum.y * north.x + sum.z * g.x,
@@ -63,58 +52,36 @@ Point centroid(std::size_t corners, const PointAt& point, const HalfTurn& half_t
 
 }  // namespace
 
-void find_half_turns(Faces& cells, const std::int32_t* beyond, const pstripack::Directions& nodes) {
-  cells.for_each_corner([&](std::size_t f, std::size_t k) {
-    const std::size_t end = cells.after(f, k);
-    if (dot(cells.point(k), cells.point(end)) >= kHalfTurn) return;
-    const Point normal = accurate_difference(direction_of(nodes, static_cast<pstripack::index_t>(f)),
-                                             direction_of(nodes, beyond[end] - 1));
-    cells.half_turns.push_back({f, cells.corner[k], cells.corner[end], unit(normal)});
-  });
-}
-
-void divide_half_turns(Faces& cells) {
-  NumberOfPoint middles;  // both cells compute the same bits
-  Faces divided = cells;
-  divided.corner.clear();
-  auto side = cells.half_turns.begin();
+void divide_half_turns(Faces& cells, const std::int32_t* beyond, const pstripack::Directions& nodes,
+                       double cosine) {
+  std::map<std::array<double, 3>, std::int32_t> middles;  // both cells compute the same bits
+  std::vector<std::int32_t> corner;
+  std::vector<std::size_t> begin{0};
   for (std::size_t f = 0; f < cells.size(); ++f) {
-    divided.begin[f] = divided.corner.size();
     for (std::size_t k = cells.begin[f]; k < cells.begin[f + 1]; ++k) {
-      divided.corner.push_back(cells.corner[k]);
-      if (side == cells.half_turns.end() || side->face != f || side->from != cells.corner[k]) continue;
-      const Point &a = cells.points[static_cast<std::size_t>(side->from) - 1],
-                  &b = cells.points[static_cast<std::size_t>(side->to) - 1],
-                  middle = unit(cross(side->normal, minus(a, b)));
-      ++side;
-      if (dot(a, b) >= -1 + 1e-12) continue;
+      corner.push_back(cells.corner[k]);
+      const std::size_t end = cells.after(f, k);
+      const Point from = cells.point(k), to = cells.point(end);
+      if (dot(from, to) >= cosine) continue;
+      const Point normal = accurate_difference(direction_of(nodes, static_cast<pstripack::index_t>(f)),
+                                               direction_of(nodes, beyond[end] - 1)),
+                  middle = unit(cross(unit(normal), minus(from, to)));
       const auto [known, is_new] = middles.try_emplace({middle.x, middle.y, middle.z},
-                                                       static_cast<std::int32_t>(divided.points.size() + 1));
-      if (is_new) divided.points.push_back(middle);
-      divided.corner.push_back(known->second);
+                                                       static_cast<std::int32_t>(cells.points.size() + 1));
+      if (is_new) cells.points.push_back(middle);
+      corner.push_back(known->second);
     }
+    begin.push_back(corner.size());
   }
-  divided.begin.back() = divided.corner.size();
-  if (!middles.empty()) cells = std::move(divided);
+  cells.corner = std::move(corner);
+  cells.begin = std::move(begin);
 }
 
 std::vector<Point> centroids(const Faces& faces) {
   std::vector<Point> centres(faces.size());
   pstripack::parallel_for(centres.size(), 8 * centres.size(), [&](std::size_t f) {
-    const std::size_t corners = faces.corners(f);
-    const auto corner = [&](std::size_t k) { return faces.corner[faces.begin[f] + k]; };
-    const auto point = [&](std::size_t k) { return faces.point(faces.begin[f] + k); };
-    const auto first = std::lower_bound(faces.half_turns.begin(), faces.half_turns.end(), f,
-                                        [](const HalfTurn& h, std::size_t of) { return h.face < of; });
-    // divide_half_turns() may have given the side a corner in its middle.
-    centres[f] = centroid(corners, point, [&](std::size_t k) -> const Point* {
-      const std::size_t before = (k + corners - 1) % corners, after = (k + 1) % corners;
-      for (auto h = first; h != faces.half_turns.end() && h->face == f; ++h)
-        if ((corner(k) == h->from && (corner(after) == h->to || corner((k + 2) % corners) == h->to)) ||
-            (corner(before) == h->from && corner(after) == h->to))
-          return &h->normal;
-      return nullptr;
-    });
+    centres[f] = centroid(faces.corners(f),
+                          [&](std::size_t k) -> const Point& { return faces.point(faces.begin[f] + k); });
   });
   return centres;
 }

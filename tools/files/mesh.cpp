@@ -326,7 +326,7 @@ void add_corners(Faces& cells, const Mesh& mesh, const pstripack::Directions& di
     } while (slot != last);
     cells.begin[node + 1] = cells.corner.size();
   }
-  find_half_turns(cells, beyond.data(), directions);
+  divide_half_turns(cells, beyond.data(), directions);
 }
 
 }  // namespace

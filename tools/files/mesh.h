@@ -95,13 +95,6 @@ std::vector<Point> unit(const std::vector<Point>& points);
 std::vector<Point> circumcentres(const std::vector<Point>& points,
                                  const std::vector<std::int32_t>& triangles);
 
-/// A side of a Voronoi cell so near to half a turn that its rounded ends do not tell its plane.
-struct HalfTurn {
-  std::size_t face;
-  std::int32_t from, to;  ///< its corners
-  Point normal;           ///< the unit vector on the side of the cell's node
-};
-
 /// Polygons on the unit sphere: face f has the corners corner[begin[f]] ... corner[begin[f+1]-1],
 /// counterclockwise.
 struct Faces {
@@ -112,11 +105,10 @@ struct Faces {
   std::vector<std::int32_t> corner;
   std::vector<double>
       area;  ///< of triangles and whole cells, in steradians, from their nodes; NaN: not known
-  std::vector<HalfTurn> half_turns;    ///< in increasing order of faces
   LonLat given_points, given_centres;  ///< their longitudes and latitudes, if the input had them
   Columns columns_of_points, columns_of_faces;
   Columns columns_of_parts;  ///< of faces cut at polygons: add_columns() makes them columns of the faces
-  Variant variant = {};      ///< with the edges, all faces must be here
+  Variant variant = {};
 
   std::size_t size() const { return begin.size() - 1; }
   std::size_t node_of(std::size_t f) const { return nodes.empty() ? f : nodes[f]; }
@@ -151,17 +143,16 @@ struct Edges {
 };
 Edges edges_of(const Faces& faces);
 
-/// Gives the Voronoi cells of these nodes, with all their corners, their half turns. beyond[k]: the node,
-/// from 1, across the side that ends at cells.corner[k].
-void find_half_turns(Faces& cells, const std::int32_t* beyond, const pstripack::Directions& nodes);
-
-/// Inserts the midpoint of each side of a Voronoi cell that is a half turn: the ends of such a side do not
+/// Inserts the midpoint of each side of a Voronoi cell that is half a turn: the ends of such a side do not
 /// determine its great circle. They occur where nodes lie on one circle: their cells are lunes with two
-/// sides.
-void divide_half_turns(Faces& cells);
+/// sides. beyond[k]: the node, from 1, across the side that ends at cells.corner[k]. `cosine`: of the least
+/// angle that is divided.
+void divide_half_turns(Faces& cells, const std::int32_t* beyond, const pstripack::Directions& nodes,
+                       double cosine = -1 + 1e-12);
 
 /// The centroid of each face: the direction of the integral of p over it. Right to 1e-15 rad for each unit of
-/// the face's length over its width, if sides of nearly half a turn are in faces.half_turns.
+/// the face's length over its width; to 1e-10 where a side is
+/// nearly half a turn.
 std::vector<Point> centroids(const Faces& faces);
 
 /// The areas of the faces in steradians; from their corners, where faces.area does not know them.
@@ -183,9 +174,10 @@ struct Links {
 };
 Links links_of(const Mesh& mesh);
 
-/// The Voronoi diagram: one face per node. If the nodes lie in a hemisphere, the cells of the boundary nodes
-/// share the rest of the sphere, as in STRIPACK's CRLIST. Throws NoMesh if the areas of the cells are not
-/// certain to make up the sphere. A table of their areas needs no corners.
+/// The Voronoi diagram: one face per node; sides of half a turn have a corner in their middle. If the nodes
+/// lie in a hemisphere, the cells of the boundary nodes share the rest of the sphere, as in STRIPACK's
+/// CRLIST. Throws NoMesh if the areas of the cells are not certain to make up the sphere. A table of their
+/// areas needs no corners.
 Faces voronoi_faces(const Mesh& mesh, bool with_corners = true);
 
 /// Adds the columns that files of faces can hold: the nodes' own columns and given angles, their numbers of

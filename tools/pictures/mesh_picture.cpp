@@ -62,7 +62,6 @@ class MeshPicture {
     count_nodes_in_view();
     const bool cells = options_.what == What::cells;
     faces_ = cells ? files::voronoi_faces(mesh_) : files::triangle_faces(mesh_);
-    if (cells) files::divide_half_turns(faces_);
     draw_frame("#fbfcfd", "none");
     draw_faces();
     draw_graticule();

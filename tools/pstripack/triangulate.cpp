@@ -101,7 +101,6 @@ void voronoi(Options& options) {
     const bool are_whole = options.clip_to.empty() && !options.clip_to_hull;
     files::Faces faces = files::voronoi_faces(mesh);
     if (are_whole) tell_huge_cell(options, faces, mesh);
-    files::divide_half_turns(faces);
     if (options.clip_to_hull && !mesh.has_boundary())
       say(options.input.file + ": the nodes surround the sphere: --clip-to-hull cuts nothing");
     if (options.clip_to_hull) faces = clipped_to_hull(faces, mesh);

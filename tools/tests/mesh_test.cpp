@@ -153,15 +153,11 @@ TEST(centroids, of_the_cells_of_three_nodes) {
                                  {-0.0002689079324440259, 0.0031121462148417313, 1},
                                  {0.006287430128574454, -0.007060629239114831, 1}};
   const Mesh mesh = triangulate(nodes);
-  Faces cells = voronoi_faces(mesh);
-  const auto centres = centroids(cells);
-  divide_half_turns(cells);
-  const auto of_divided = centroids(cells);
+  const auto centres = centroids(voronoi_faces(mesh));
   for (std::size_t k = 0; k < 3; ++k) {
     const Point sum = minus(unit(minus(unit(nodes[k]), unit(nodes[(k + 1) % 3]))),
                             unit(minus(unit(nodes[(k + 2) % 3]), unit(nodes[k]))));
     EXPECT_LT(length(minus(centres[k], unit(sum))), 1e-12);
-    EXPECT_LT(length(minus(centres[k], of_divided[k])), 1e-13);
   }
   EXPECT_NEAR(longitude(centres[1]), 110.405452, 1e-6);
 }
