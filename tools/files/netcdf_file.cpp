@@ -1,12 +1,15 @@
 #include "files/netcdf_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <netcdf_mem.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include "files/nearest.h"
@@ -17,63 +20,16 @@
 namespace files {
 namespace {
 
-/// Throws if a file in a classic format, CDF-1, CDF-2 or CDF-5, ends before its last value: libnetcdf takes
-/// what is missing as zeros.
-void expect_whole(std::istream&& file, const std::string& name) {
-  using Number = std::uint64_t;
-  const auto number = [&](int bytes) {
-    Number value = 0;
-    for (; bytes > 0; --bytes) value = value << 8 | static_cast<Number>(file.get() & 0xff);
-    return value;
-  };
-  const Number version = number(4) - 0x43444600;  // "CDF" and the version
-  if (version != 1 && version != 2 && version != 5) return;
-  const auto count = [&] { return number(version == 5 ? 8 : 4); };
-  const auto padded = [](Number bytes) { return (bytes + 3) / 4 * 4; };
-  const auto skip = [&](Number bytes) { file.ignore(static_cast<std::streamsize>(padded(bytes))); };
-  const auto size_of_type = [&]() -> Number {
-    constexpr Number kSizes[] = {0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
-    return kSizes[std::min<Number>(number(4), 11)];
-  };
-  // Reads the names of dimensions, attributes or variables, and calls read() for the rest of each.
-  const auto for_each_item = [&](const auto& read) {
-    number(4);
-    for (Number left = count(); left > 0 && file; --left) {
-      skip(count());
-      read();
-    }
-  };
-  const auto skip_attributes = [&] {
-    for_each_item([&] {
-      const Number size = size_of_type();
-      skip(size * count());
-    });
-  };
-  const Number records = count();
-  std::vector<Number> lengths, bytes_of_record;
-  for_each_item([&] { lengths.push_back(count()); });
-  skip_attributes();
-  Number end = 0, end_in_record = 0;
-  for_each_item([&] {
-    bool has_records = false;
-    Number bytes = 1;
-    for (Number rank = count(); rank > 0 && file; --rank) {
-      const Number dimension = count(), length = dimension < lengths.size() ? lengths[dimension] : 1;
-      has_records = has_records || length == 0;
-      if (length > 0) bytes *= length;
-    }
-    skip_attributes();
-    bytes *= size_of_type();
-    count();  // the size once more
-    Number& last = has_records ? end_in_record : end;
-    last = std::max(last, number(version == 1 ? 4 : 8) + bytes);
-    if (has_records) bytes_of_record.push_back(bytes);
-  });
-  Number record = 0;
-  for (const Number bytes : bytes_of_record) record += bytes_of_record.size() == 1 ? bytes : padded(bytes);
-  if (records > 0) end = std::max(end, end_in_record + (records - 1) * record);
-  if (!file || file.seekg(0, std::ios::end).tellg() < static_cast<std::streamoff>(end))
-    throw std::runtime_error(name + ": incomplete NetCDF file: it ends before its last value");
+/// The bytes of a file, mapped into memory; empty: it cannot be.
+std::string_view mapped(const std::string& name) {
+  struct stat status {};
+  const int file = open(name.c_str(), O_RDONLY);
+  void* begin = MAP_FAILED;
+  if (file >= 0 && fstat(file, &status) == 0 && status.st_size > 0)
+    begin = mmap(nullptr, static_cast<std::size_t>(status.st_size), PROT_READ, MAP_PRIVATE, file, 0);
+  if (file >= 0) close(file);
+  if (begin == MAP_FAILED) return {};
+  return {static_cast<const char*>(begin), static_cast<std::size_t>(status.st_size)};
 }
 
 /// What NetCDF's types of numbers hold, by nc_type.
@@ -136,18 +92,19 @@ bool NetcdfVariable::is_of(const std::vector<int>& nodes) const {
 
 NetcdfFile::NetcdfFile(const std::string& name, const std::string& contents, const ReadOptions& options)
     : name_(name), options_(options) {
-  if (contents.empty()) {
-    expect_whole(std::ifstream(name, std::ios::binary), name);
+  if (contents.empty()) mapped_ = mapped(name);
+  const std::string_view bytes = contents.empty() ? mapped_ : contents;
+  if (bytes.substr(0, 3) != "CDF" && contents.empty())
     check("", nc_open(name.c_str(), NC_NOWRITE, &id_));
-  } else {  // NetCDF takes bytes to read as void*, and does not change them without NC_WRITE
-    expect_whole(std::istringstream(contents), name);
-    check("",
-          nc_open_mem(name.c_str(), NC_NOWRITE, contents.size(), const_cast<char*>(contents.data()), &id_));
-  }
+  else  // in memory, since libnetcdf reads what a truncated file in a classic format lacks as zeros
+    check("", nc_open_mem(name.c_str(), NC_NOWRITE, bytes.size(), const_cast<char*>(bytes.data()), &id_));
   add_group(id_, "");
 }
 
-NetcdfFile::~NetcdfFile() { nc_close(id_); }
+NetcdfFile::~NetcdfFile() {
+  nc_close(id_);
+  if (!mapped_.empty()) munmap(const_cast<char*>(mapped_.data()), mapped_.size());
+}
 
 void NetcdfFile::add_group(int group, const std::string& path) {
   char name[NC_MAX_NAME + 1];
@@ -176,7 +133,8 @@ void NetcdfFile::fail(const std::string& what) const { throw std::runtime_error(
 
 void NetcdfFile::check(const std::string& variable, int status) const {
   if (status != NC_NOERR)
-    fail((variable.empty() ? "" : "variable " + excerpt(variable) + ": ") + nc_strerror(status));
+    fail((variable.empty() ? "" : "variable " + excerpt(variable) + ": ") +
+         (status == EPERM ? "incomplete NetCDF file: it ends before its last value" : nc_strerror(status)));
 }
 
 std::vector<std::string> NetcdfFile::names() const {
@@ -269,11 +227,10 @@ bool NetcdfFile::is_packed(const NetcdfVariable& v) const {
 }
 
 std::vector<double> NetcdfFile::values(const NetcdfVariable& v) const {
-  const std::vector<std::size_t> start(v.lengths.size());
   std::size_t size = 1;
   for (const std::size_t length : v.lengths) size *= expect_few(v, length, size);
   std::vector<double> values(size);
-  check(v.path, nc_get_vara_double(v.group, v.id, start.data(), v.lengths.data(), values.data()));
+  check(v.path, nc_get_var_double(v.group, v.id, values.data()));
 
   const Stored stored(v.type, text(v, "_Unsigned"));
   std::vector<double> missing = numbers(v, "_FillValue");

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "files/nodes.h"
@@ -75,14 +76,17 @@ class NetcdfFile {
   /// "T(time=12, lat=96)".
   std::string shape(const std::string& name, const std::vector<int>& dimensions) const;
 
- private:
+  /// Throws if the status of a call of NetCDF's is an error.
   void check(const std::string& variable, int status) const;
+
+ private:
   void add_group(int group, const std::string& path);
 
   std::string name_;
   const ReadOptions& options_;
   std::vector<NetcdfVariable> variables_;
   int id_ = -1;
+  std::string_view mapped_;
 };
 
 }  // namespace files

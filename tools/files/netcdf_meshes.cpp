@@ -19,11 +19,11 @@ constexpr std::int32_t kNone = -1;
 int add_corners(NetcdfWriter& out, const std::string& name, const NetcdfWriter::Dimensions& dimensions,
                 const Faces& faces, const std::vector<std::int32_t>& values) {
   const std::size_t width = faces.most_corners();
-  const int id = out.rows<std::int32_t>({name}, dimensions, {}, [&, width](std::size_t f, std::int32_t* to) {
+  const int id = out.rows<std::int32_t>(name, dimensions, {}, [&, width](std::size_t f, std::int32_t* to) {
     const auto begin = values.begin() + static_cast<std::ptrdiff_t>(faces.begin[f]);
     const auto corners = static_cast<std::ptrdiff_t>(faces.corners(f));
     std::fill(std::copy(begin, begin + corners, to), to + width, kNone);
-  })[0];
+  });
   out.attribute(id, "start_index", 1);
   out.attribute(id, "_FillValue", kNone);
   return id;
@@ -138,13 +138,12 @@ void write_scrip(const OutputFile& file, const Faces& faces, const Notes& notes)
   out.variable("grid_imask", {size}, {{"units", "unitless"}}, mask);
   for (const auto& [name, values] :
        {std::pair("grid_corner_lat", &of_points.lat), std::pair("grid_corner_lon", &of_points.lon)})
-    out.rows<double>({name}, {size, corners}, degrees,
-                     [&, width, angles = values](std::size_t f, double* to) {
-                       double* next = to;
-                       for (std::size_t k = rings.begin[f]; k < rings.begin[f + 1]; ++k)
-                         *next++ = (*angles)[static_cast<std::size_t>(rings.corner[k]) - 1];
-                       std::fill(next, to + width, next[-1]);  // the last corner again, as SCRIP requires
-                     });
+    out.rows<double>(name, {size, corners}, degrees, [&, width, angles = values](std::size_t f, double* to) {
+      double* next = to;
+      for (std::size_t k = rings.begin[f]; k < rings.begin[f + 1]; ++k)
+        *next++ = (*angles)[static_cast<std::size_t>(rings.corner[k]) - 1];
+      std::fill(next, to + width, next[-1]);  // the last corner again, as SCRIP requires
+    });
   out.variable("grid_area", {size},
                {{"units", "radians^2"}, {"long_name", "area of the cell on the unit sphere"}}, of_faces);
   out.attributes(notes);
@@ -162,14 +161,14 @@ void write_esmf(const OutputFile& file, const Faces& faces, const Notes& notes) 
             corners = out.dimension("maxNodePElement", rings.most_corners()),
             two = out.dimension("coordDim", 2);
   const auto add_places = [&](const char* name, int of, const LonLat& places) {
-    out.rows<double>({name}, {of, two}, {{"units", "degrees"}},
+    out.rows<double>(name, {of, two}, {{"units", "degrees"}},
                      [&places](std::size_t i, double* to) { to[0] = places.lon[i], to[1] = places.lat[i]; });
   };
   add_places("nodeCoords", nodes, of_points);
   out.attribute(add_corners(out, "elementConn", {elements, corners}, rings, rings.corner), "long_name",
                 "Node indices that define the element connectivity");
   out.rows<std::int32_t>(
-      {"numElementConn"}, {elements}, {{"long_name", "Number of nodes per element"}},
+      "numElementConn", {elements}, {{"long_name", "Number of nodes per element"}},
       [&](std::size_t f, std::int32_t* to) { *to = static_cast<std::int32_t>(rings.corners(f)); });
   add_places("centerCoords", elements, of_centres);
   out.variable("elementArea", {elements},
@@ -249,10 +248,10 @@ struct End {
     out.variable("yc_" + letter, {n}, degrees, lat);
     out.variable("xc_" + letter, {n}, degrees, lon);
     if (has_cells) {
-      out.rows<double>({"yv_" + letter}, {n, corners}, degrees, [&edges, columns](std::size_t i, double* to) {
+      out.rows<double>("yv_" + letter, {n, corners}, degrees, [&edges, columns](std::size_t i, double* to) {
         to[0] = to[1] = edges.lat[i / columns], to[2] = to[3] = edges.lat[i / columns + 1];
       });
-      out.rows<double>({"xv_" + letter}, {n, corners}, degrees, [&edges, columns](std::size_t i, double* to) {
+      out.rows<double>("xv_" + letter, {n, corners}, degrees, [&edges, columns](std::size_t i, double* to) {
         to[0] = to[3] = edges.lon[i % columns], to[1] = to[2] = edges.lon[i % columns + 1];
       });
     } else {
@@ -260,7 +259,7 @@ struct End {
       out.variable("xv_" + letter, {n, corners}, degrees, lon);
     }
     out.variable("mask_" + letter, {n}, unitless, mask);
-    out.rows<double>({"area_" + letter}, {n}, square, [=, &edges](std::size_t i, double* to) {
+    out.rows<double>("area_" + letter, {n}, square, [=, &edges](std::size_t i, double* to) {
       if (!has_cells) return;
       const double south = edges.lat[i / columns] / kRadian, north = edges.lat[i / columns + 1] / kRadian;
       *to = (edges.lon[i % columns + 1] - edges.lon[i % columns]) / kRadian * 2 *

@@ -73,66 +73,6 @@ double from_0(double lon) {
   return lon >= 0 ? lon : lon + kTurn < kTurn ? lon + kTurn : 0;
 }
 
-/// Sets latitude, longitude, x, y, z. Returns where the next value goes.
-double* put_place(const Point& p, double radius, double* to) {
-  *to++ = std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y));
-  *to++ = from_0(std::atan2(p.y, p.x));
-  *to++ = radius * p.x, *to++ = radius * p.y, *to++ = radius * p.z;
-  return to;
-}
-
-/// Units and long_name of a variable; of the places of cells, edges and vertices those of latCell to zCell.
-struct Words {
-  const char *name, *units, *long_name;
-};
-constexpr Words kOfPlaces[] = {{"lat", "rad", "latitude"},
-                               {"lon", "rad", "longitude"},
-                               {"x", "m", "Cartesian x coordinate"},
-                               {"y", "m", "Cartesian y coordinate"},
-                               {"z", "m", "Cartesian z coordinate"}};
-constexpr Words kOfOthers[] = {{"areaCell", "m2", "area of the cell"},
-                               {"meshDensity", "1", "density: (nominalMinDc / width of the cell)^4"},
-                               {"gridSpacing", "m", "mean distance to the neighbours of the cell"},
-                               {"cellQuality", "1", "shortest over longest edge of the cell"},
-                               {"indexToCellID", "1", "number of the cell"},
-                               {"nEdgesOnCell", "1", "number of edges of the cell"},
-                               {"cellsOnCell", "1", "cells around the cell"},
-                               {"edgesOnCell", "1", "edges of the cell"},
-                               {"verticesOnCell", "1", "vertices of the cell"},
-                               {"angleEdge", "rad", "angle from east to the normal of the edge"},
-                               {"dcEdge", "m", "distance of the cells of the edge"},
-                               {"dvEdge", "m", "length of the edge: distance of its vertices"},
-                               {"indexToEdgeID", "1", "number of the edge"},
-                               {"nEdgesOnEdge", "1", "number of edges that give the tangential velocity"},
-                               {"cellsOnEdge", "1", "cells on both sides of the edge"},
-                               {"verticesOnEdge", "1", "vertices at the ends of the edge"},
-                               {"edgesOnEdge", "1", "edges that give the tangential velocity"},
-                               {"weightsOnEdge", "1", "weights of these edges"},
-                               {"areaTriangle", "m2", "area of the triangle around the vertex"},
-                               {"triangleQuality", "1", "shortest over longest side of the triangle"},
-                               {"triangleAngleQuality", "1", "least over largest angle of the triangle"},
-                               {"indexToVertexID", "1", "number of the vertex"},
-                               {"boundaryVertex", "1", "1: the vertex lies at the boundary"},
-                               {"obtuseTriangle", "1", "1: the triangle does not hold the vertex"},
-                               {"cellsOnVertex", "1", "cells that meet at the vertex"},
-                               {"edgesOnVertex", "1", "edges that meet at the vertex"},
-                               {"kiteAreasOnVertex", "m2", "areas that the triangle shares with these cells"},
-                               {"nominalMinDc", "m", "width of cells of density 1"},
-                               {"bdyMaskCell", "1", "0: region, 1 to 7: layers around it"},
-                               {"bdyMaskEdge", "1", "least bdyMaskCell of its cells"},
-                               {"bdyMaskVertex", "1", "least bdyMaskCell of its cells"}};
-
-void describe(NetcdfWriter& out) {
-  const auto add = [&](const std::string& name, const char* units, const std::string& long_name) {
-    if (const int id = out.find(name); id >= 0)
-      out.attribute(id, "units", units), out.attribute(id, "long_name", long_name);
-  };
-  for (const Words& words : kOfPlaces)
-    for (const auto& [of, whose] : {std::pair("Cell", "cell"), {"Edge", "edge"}, {"Vertex", "vertex"}})
-      add(std::string(words.name) + of, words.units, fmt::format("{} of the {}", words.long_name, whose));
-  for (const Words& words : kOfOthers) add(words.name, words.units, words.long_name);
-}
-
 void write(const OutputFile& file, const MpasMesh& mesh, const MpasValues& values) {
   using Index = MpasMesh::Index;
   const auto at = [](Index i) { return static_cast<std::size_t>(i); };
@@ -158,113 +98,149 @@ void write(const OutputFile& file, const MpasMesh& mesh, const MpasValues& value
                   {mesh.cells_on_vertex.data(), mesh.cells_on_vertex.size() * sizeof(MpasMesh::Three)},
                   {&radius, sizeof radius}}));
 
-  // Of a cell.
-  const LonLat given = values.given.empty() ? LonLat() : angles_of(mesh.cells, values.given, false);
+  // Variables of numbers, and of tables: row(i, to) sets the values of i, which are 0 before.
+  const auto table = [&](auto zero, const std::string& name, const NetcdfWriter::Dimensions& dimensions,
+                         const char* units, const std::string& long_name, const auto& row) {
+    const int id = out.rows<decltype(zero)>(name, dimensions, {}, row);
+    out.attribute(id, "units", units);
+    out.attribute(id, "long_name", long_name);
+  };
+  const auto numbers = [&](const std::string& name, int of, const char* units, const std::string& long_name,
+                           const auto& value) {
+    using Number = decltype(value(std::size_t{}));
+    table(Number{}, name, {of}, units, long_name, [value](std::size_t i, Number* to) { *to = value(i); });
+  };
+  const auto indices = [&](const std::string& name, int rows, int width, const char* long_name,
+                           const auto& all) {
+    table(Index{}, name, {rows, width}, "1", long_name, [&all](std::size_t i, Index* to) {
+      for (const Index index : all[i]) *to++ = index + 1;
+    });
+  };
+  const auto count_from_1 = [&](const std::string& name, int of, const char* long_name) {
+    numbers(name, of, "1", long_name, [](std::size_t i) { return static_cast<Index>(i + 1); });
+  };
+  const auto places = [&](const std::string& of, const std::string& whose, int rows, const LonLat& known,
+                          const auto& point) {
+    numbers("lat" + of, rows, "rad", "latitude of the " + whose, [&known, point](std::size_t i) {
+      const Point p = point(i);
+      return known.empty() ? std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y)) : known.lat[i];
+    });
+    numbers("lon" + of, rows, "rad", "longitude of the " + whose, [&known, point](std::size_t i) {
+      const Point p = point(i);
+      return from_0(known.empty() ? std::atan2(p.y, p.x) : known.lon[i]);
+    });
+    for (const auto& [axis, component] :
+         {std::pair("x", &Point::x), std::pair("y", &Point::y), std::pair("z", &Point::z)})
+      numbers(axis + of, rows, "m", fmt::format("Cartesian {} coordinate of the {}", axis, whose),
+              [radius, point, part = component](std::size_t i) { return radius * (point(i).*part); });
+  };
+
+  const LonLat given = values.given.empty() ? LonLat() : angles_of(mesh.cells, values.given, false), none;
   const std::vector<double>& density = values.density;
   const double densest =
       density.empty() ? 1 : std::max(1.0, *std::max_element(density.begin(), density.end()));
-  out.rows<double>({"latCell", "lonCell", "xCell", "yCell", "zCell", "areaCell", "meshDensity", "gridSpacing",
-                    "cellQuality"},
-                   {cells}, {}, [&](std::size_t c, double* value) {
-                     double* next = put_place(mesh.cells[c], radius, value);
-                     if (!given.empty()) value[0] = given.lat[c], value[1] = from_0(given.lon[c]);
-                     *next++ = square * mesh.areas[c];
-                     *next++ = density.empty() ? 1 : density[c] / densest;
-                     double sum = 0;
-                     for (std::size_t j = 0; j < mesh.sides(c); ++j)
-                       sum += mesh.distances[at(mesh.edges_on_cell[mesh.row(c, j)])];
-                     *next++ = radius * sum / static_cast<double>(mesh.sides(c));
-                     *next++ = evenness(mesh.sides(c), [&](std::size_t j) {
-                       return std::fabs(mesh.outflows[mesh.row(c, j)]);
-                     });
-                   });
-  out.rows<Index>({"indexToCellID", "nEdgesOnCell"}, {cells}, {}, [&](std::size_t c, Index* value) {
-    value[0] = static_cast<Index>(c + 1);
-    value[1] = static_cast<Index>(mesh.sides(c));
+  places("Cell", "cell", cells, given, [&](std::size_t c) { return mesh.cells[c]; });
+  numbers("areaCell", cells, "m2", "area of the cell", [&](std::size_t c) { return square * mesh.areas[c]; });
+  numbers("meshDensity", cells, "1", "density: (nominalMinDc / width of the cell)^4",
+          [&](std::size_t c) { return density.empty() ? 1 : density[c] / densest; });
+  numbers("gridSpacing", cells, "m", "mean distance to the neighbours of the cell", [&](std::size_t c) {
+    double sum = 0;
+    for (std::size_t j = 0; j < mesh.sides(c); ++j)
+      sum += mesh.distances[at(mesh.edges_on_cell[mesh.row(c, j)])];
+    return radius * sum / static_cast<double>(mesh.sides(c));
   });
-  const auto of_sides = [&](const char* name, const auto& index) {
-    out.rows<Index>({name}, {cells, sides}, {}, [=, &mesh](std::size_t c, Index* value) {
-      for (std::size_t j = 0; j < mesh.sides(c); ++j) value[j] = index(mesh.row(c, j), c) + 1;
+  numbers("cellQuality", cells, "1", "shortest over longest edge of the cell", [&](std::size_t c) {
+    return evenness(mesh.sides(c), [&](std::size_t j) { return std::fabs(mesh.outflows[mesh.row(c, j)]); });
+  });
+  count_from_1("indexToCellID", cells, "number of the cell");
+  numbers("nEdgesOnCell", cells, "1", "number of edges of the cell",
+          [&](std::size_t c) { return static_cast<Index>(mesh.sides(c)); });
+  const auto of_sides = [&](const char* name, const char* long_name, const auto& index) {
+    table(Index{}, name, {cells, sides}, "1", long_name, [=, &mesh](std::size_t c, Index* to) {
+      for (std::size_t j = 0; j < mesh.sides(c); ++j) to[j] = index(mesh.row(c, j), c) + 1;
     });
   };
-  of_sides("cellsOnCell",
+  of_sides("cellsOnCell", "cells around the cell",
            [&](std::size_t row, std::size_t c) { return mesh.across(mesh.edges_on_cell[row], c); });
-  of_sides("edgesOnCell", [&](std::size_t row, std::size_t) { return mesh.edges_on_cell[row]; });
-  of_sides("verticesOnCell", [&](std::size_t row, std::size_t) { return mesh.vertices_on_cell[row]; });
+  of_sides("edgesOnCell", "edges of the cell",
+           [&](std::size_t row, std::size_t) { return mesh.edges_on_cell[row]; });
+  of_sides("verticesOnCell", "vertices of the cell",
+           [&](std::size_t row, std::size_t) { return mesh.vertices_on_cell[row]; });
 
-  // Of an edge.
-  out.rows<double>({"latEdge", "lonEdge", "xEdge", "yEdge", "zEdge", "angleEdge", "dcEdge", "dvEdge"},
-                   {edges}, {}, [&](std::size_t e, double* value) {
-                     const Point point = mesh.edge_point(e);
-                     double* next = put_place(point, radius, value);
-                     *next++ = mesh.angle(e, point);
-                     *next++ = radius * mesh.distances[e];
-                     *next++ = radius * mesh.widths[e];
-                   });
-  out.rows<Index>({"indexToEdgeID", "nEdgesOnEdge"}, {edges}, {}, [&](std::size_t e, Index* value) {
-    value[0] = static_cast<Index>(e + 1);
-    for (const Index c : mesh.cells_on_edge[e])
-      if (c != MpasMesh::kNone) value[1] += static_cast<Index>(mesh.sides(at(c))) - 1;
-  });
-  const auto indices = [&](const char* name, int rows, int width, const auto& table) {
-    out.rows<Index>({name}, {rows, width}, {}, [&](std::size_t i, Index* value) {
-      for (const Index index : table[i]) *value++ = index + 1;
-    });
-  };
-  indices("cellsOnEdge", edges, two, mesh.cells_on_edge);
-  indices("verticesOnEdge", edges, two, mesh.vertices_on_edge);
-  out.rows<Index>({"edgesOnEdge"}, {edges, around}, {}, [&](std::size_t e, Index* value) {
-    mesh.for_each_around(e, [&](Index other, double) { *value++ = other + 1; });
-  });
-  out.rows<double>({"weightsOnEdge"}, {edges, around}, {}, [&](std::size_t e, double* value) {
-    mesh.for_each_around(e, [&](Index, double weight) { *value++ = weight; });
+  std::vector<Point> points(mesh.cells_on_edge.size());
+  pstripack::parallel_for(points.size(), 10 * points.size(),
+                          [&](std::size_t e) { points[e] = mesh.edge_point(e); });
+  places("Edge", "edge", edges, none, [&](std::size_t e) { return points[e]; });
+  numbers("angleEdge", edges, "rad", "angle from east to the normal of the edge",
+          [&](std::size_t e) { return mesh.angle(e, points[e]); });
+  numbers("dcEdge", edges, "m", "distance of the cells of the edge",
+          [&](std::size_t e) { return radius * mesh.distances[e]; });
+  numbers("dvEdge", edges, "m", "length of the edge: distance of its vertices",
+          [&](std::size_t e) { return radius * mesh.widths[e]; });
+  count_from_1("indexToEdgeID", edges, "number of the edge");
+  numbers("nEdgesOnEdge", edges, "1", "number of edges that give the tangential velocity",
+          [&](std::size_t e) {
+            Index count = 0;
+            for (const Index c : mesh.cells_on_edge[e])
+              if (c != MpasMesh::kNone) count += static_cast<Index>(mesh.sides(at(c))) - 1;
+            return count;
+          });
+  indices("cellsOnEdge", edges, two, "cells on both sides of the edge", mesh.cells_on_edge);
+  indices("verticesOnEdge", edges, two, "vertices at the ends of the edge", mesh.vertices_on_edge);
+  table(Index{}, "edgesOnEdge", {edges, around}, "1", "edges that give the tangential velocity",
+        [&](std::size_t e, Index* to) {
+          mesh.for_each_around(e, [&](Index other, double) { *to++ = other + 1; });
+        });
+  table(0.0, "weightsOnEdge", {edges, around}, "1", "weights of these edges", [&](std::size_t e, double* to) {
+    mesh.for_each_around(e, [&](Index, double weight) { *to++ = weight; });
   });
 
-  // Of a vertex. The angles are computed once: for the doubles, which are written first.
-  std::vector<char> is_obtuse(mesh.vertices.size());
-  out.rows<double>({"latVertex", "lonVertex", "xVertex", "yVertex", "zVertex", "areaTriangle",
-                    "triangleQuality", "triangleAngleQuality"},
-                   {vertices}, {}, [&](std::size_t v, double* value) {
-                     double* next = put_place(mesh.vertices[v], radius, value);
-                     *next++ = square * mesh.triangle_area(v);
-                     const MpasMesh::Three& around_v = mesh.edges_on_vertex[v];
-                     *next++ = evenness(around_v[2] == MpasMesh::kNone ? 2 : 3,
-                                        [&](std::size_t j) { return mesh.distances[at(around_v[j])]; });
-                     if (mesh.is_at_boundary(v)) return;
-                     const pstripack::Angles angles = mesh.angles(v);
-                     *next = evenness(3, [&](std::size_t j) { return angles.at[j]; });
-                     is_obtuse[v] = !angles.are_acute;
-                   });
-  out.rows<Index>({"indexToVertexID", "boundaryVertex", "obtuseTriangle"}, {vertices}, {},
-                  [&](std::size_t v, Index* value) {
-                    value[0] = static_cast<Index>(v + 1);
-                    value[1] = mesh.is_at_boundary(v);
-                    value[2] = is_obtuse[v];
-                  });
-  indices("cellsOnVertex", vertices, three, mesh.cells_on_vertex);
-  indices("edgesOnVertex", vertices, three, mesh.edges_on_vertex);
-  out.rows<double>({"kiteAreasOnVertex"}, {vertices, three}, {}, [&](std::size_t v, double* value) {
-    for (const double area : mesh.kites[v]) *value++ = square * area;
+  places("Vertex", "vertex", vertices, none, [&](std::size_t v) { return mesh.vertices[v]; });
+  numbers("areaTriangle", vertices, "m2", "area of the triangle around the vertex",
+          [&](std::size_t v) { return square * mesh.triangle_area(v); });
+  numbers("triangleQuality", vertices, "1", "shortest over longest side of the triangle", [&](std::size_t v) {
+    const MpasMesh::Three& of_v = mesh.edges_on_vertex[v];
+    return evenness(of_v[2] == MpasMesh::kNone ? 2 : 3,
+                    [&](std::size_t j) { return mesh.distances[at(of_v[j])]; });
   });
+  numbers("triangleAngleQuality", vertices, "1", "least over largest angle of the triangle",
+          [&](std::size_t v) {
+            if (mesh.is_at_boundary(v)) return 0.0;
+            const pstripack::Angles angles = mesh.angles(v);
+            return evenness(3, [&](std::size_t j) { return angles.at[j]; });
+          });
+  count_from_1("indexToVertexID", vertices, "number of the vertex");
+  numbers("boundaryVertex", vertices, "1", "1: the vertex lies at the boundary",
+          [&](std::size_t v) { return Index{mesh.is_at_boundary(v)}; });
+  numbers("obtuseTriangle", vertices, "1", "1: the triangle does not hold the vertex",
+          [&](std::size_t v) { return Index{!mesh.is_at_boundary(v) && !mesh.angles(v).are_acute}; });
+  indices("cellsOnVertex", vertices, three, "cells that meet at the vertex", mesh.cells_on_vertex);
+  indices("edgesOnVertex", vertices, three, "edges that meet at the vertex", mesh.edges_on_vertex);
+  table(0.0, "kiteAreasOnVertex", {vertices, three}, "m2", "areas that the triangle shares with these cells",
+        [&](std::size_t v, double* to) {
+          for (const double area : mesh.kites[v]) *to++ = square * area;
+        });
 
   // In a limited area: the least number of the cells.
   const std::vector<Index>& layers = values.layers;
+  const auto least = [&](const char* name, int rows, const auto& cells_on) {
+    numbers(name, rows, "1", "least bdyMaskCell of its cells", [&](std::size_t i) {
+      Index number = kLayers;
+      for (const Index c : cells_on[i])
+        if (c != MpasMesh::kNone) number = std::min(number, layers[at(c)]);
+      return number;
+    });
+  };
   if (!layers.empty()) {
-    out.rows<Index>({kBdyMaskCell}, {cells}, {}, [&](std::size_t c, Index* value) { *value = layers[c]; });
-    const auto least = [&](const char* name, int rows, const auto& cells_on) {
-      out.rows<Index>({name}, {rows}, {}, [&](std::size_t i, Index* value) {
-        *value = kLayers;
-        for (const Index c : cells_on[i])
-          if (c != MpasMesh::kNone) *value = std::min(*value, layers[at(c)]);
-      });
-    };
+    numbers(kBdyMaskCell, cells, "1", "0: region, 1 to 7: layers around it",
+            [&](std::size_t c) { return layers[c]; });
     least("bdyMaskEdge", edges, mesh.cells_on_edge);
     least("bdyMaskVertex", vertices, mesh.cells_on_vertex);
   }
   const double nominal = radius * values.nominal / std::sqrt(std::sqrt(densest));
   if (nominal > 0)
-    out.rows<double>({"nominalMinDc"}, {}, {}, [=](std::size_t, double* to) { *to = nominal; });
-  describe(out);
+    table(0.0, "nominalMinDc", {}, "m", "width of cells of density 1",
+          [=](std::size_t, double* to) { *to = nominal; });
   out.write();
 }
 
@@ -302,9 +278,7 @@ struct Rows {
 /// `numbers`, if that is set.
 void copy_values(const NetcdfFile& from, const NetcdfVariable& v, int to, int variable, std::size_t cut,
                  const Rows* rows, const Rows* numbers) {
-  const auto check = [&](int status) {
-    if (status != NC_NOERR) from.fail(v.path + ": " + nc_strerror(status));
-  };
+  const auto check = [&](int status) { from.check(v.path, status); };
   std::size_t outer = 1, row = 0;  // slabs with all rows; bytes of a row
   check(nc_inq_type(v.group, v.type, nullptr, &row));
   std::vector<std::size_t> start(v.lengths.size()), count = v.lengths, kept = v.lengths;
@@ -407,7 +381,7 @@ void write_mpas_area(const OutputFile& file, const std::string& from, const std:
   for (const auto& [id, of] : cut) {
     const auto add = [&, k = of, to = dimension[id]](const std::string& name, const char* what,
                                                      const auto& value) {
-      out.rows<Index>({name}, {to}, {{"units", "1"}, {"long_name", what}},
+      out.rows<Index>(name, {to}, {{"units", "1"}, {"long_name", what}},
                       [&rows, k, value](std::size_t i, Index* at) { *at = value(rows[k], i); });
     };
     add(std::string("bdyMask") + kOf[of],

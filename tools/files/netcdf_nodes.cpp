@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "base/system.h"
@@ -196,27 +198,20 @@ Pair lon_lat_of(const File& file, const std::string& value) {
             candidates.among(file, words_of(file.text(*of_value, "coordinates"), ' '), *of_value);
         told.first != nullptr)
       return told;
-  std::vector<Pair> pairs;
+  std::map<std::tuple<bool, bool, std::ptrdiff_t>, std::vector<Pair>> pairs;  // the best first
   for (const Variable* const lon : lons)
-    for (const Variable* const lat : lats)
-      if (!dimensions_of_nodes(*lon, *lat).empty()) pairs.emplace_back(lon, lat);
+    for (const Variable* const lat : lats) {
+      const std::vector<int> nodes = dimensions_of_nodes(*lon, *lat);
+      if (nodes.empty()) continue;
+      const bool is_of_value = of_value != nullptr && of_value->is_of(nodes),
+                 is_said = is_among(candidates.said, lon) || is_among(candidates.said, lat);
+      pairs[{!is_of_value, !is_said, rank_of({lon, lat})}].emplace_back(lon, lat);
+    }
   if (pairs.empty() && lons.size() == 1 && lats.size() == 1) return {lons[0], lats[0]};
-  std::stable_sort(pairs.begin(), pairs.end(),
-                   [](const Pair& p, const Pair& q) { return rank_of(p) < rank_of(q); });
-  const auto prefer = [&](const auto& is_better) {
-    const auto end = std::stable_partition(pairs.begin(), pairs.end(), is_better);
-    if (end != pairs.begin()) pairs.erase(end, pairs.end());
-  };
-  prefer([&](const Pair& p) {
-    return of_value != nullptr && of_value->is_of(dimensions_of_nodes(*p.first, *p.second));
-  });
-  prefer([&](const Pair& p) {
-    return is_among(candidates.said, p.first) || is_among(candidates.said, p.second);
-  });
-  if (pairs.empty() || (pairs.size() > 1 && rank_of(pairs[0]) == rank_of(pairs[1])))
+  if (pairs.empty() || pairs.begin()->second.size() > 1)
     file.fail(fmt::format("longitudes {} and latitudes {}: name two of them by --columns LON,LAT",
                           paths_of(lons), paths_of(lats)));
-  return pairs.front();
+  return pairs.begin()->second[0];
 }
 
 /// True if the angles are in degrees, since radians are never as large.
@@ -487,19 +482,22 @@ Places read_chosen(const File& file, Names& names) {
   return places;
 }
 
-/// How to bring a variable to the dimensions of the nodes; empty: it has not all of these.
-std::string how_to_cut(const File& file, const Variable& v, const std::vector<int>& nodes) {
-  std::vector<int> own;
+/// Throws because the variable has other dimensions than the nodes. Says how to bring it to theirs, if it has
+/// all of them.
+[[noreturn]] void fail_of_shape(const File& file, const Variable& v, const std::string& expected,
+                                const std::vector<int>& nodes) {
   std::string cuts, order;
   for (std::size_t d = 0; d < v.dimensions.size(); ++d)
-    if (is_among(nodes, v.dimensions[d]))
-      own.push_back(v.dimensions[d]);
-    else if (v.lengths[d] != 1)
+    if (v.lengths[d] != 1 && !is_among(nodes, v.dimensions[d]))
       cuts += fmt::format(" -d {},0", file.dimension_name(v.dimensions[d]));
   for (const int dimension : nodes) order += (order.empty() ? "" : ",") + file.dimension_name(dimension);
-  if (!std::is_permutation(own.begin(), own.end(), nodes.begin(), nodes.end())) return "";
-  return own == nodes ? fmt::format("; take one layer out, say by ncks{}", cuts)
-                      : fmt::format("; exchange the dimensions, by ncpdq -a {}", order);
+  const bool has_all =
+      std::all_of(nodes.begin(), nodes.end(), [&](int n) { return is_among(v.dimensions, n); });
+  file.fail(fmt::format("variable {}: expected {}{}{}", file.shape(v.path, v.dimensions), expected,
+                        file.shape(v.path, nodes),
+                        !has_all       ? ""
+                        : cuts.empty() ? "; exchange the dimensions, by ncpdq -a " + order
+                                       : "; take one layer out, say by ncks" + cuts));
 }
 
 /// The values of the variable `name`, or of the only one if `name` is empty.
@@ -517,9 +515,7 @@ Column read_value(const File& file, const std::string& name, const Places& place
     found = others[0];
   }
   const Variable& v = *found;
-  if (!v.is_of(places.dimensions))
-    file.fail(fmt::format("variable {}: expected {}{}", file.shape(v.path, v.dimensions),
-                          file.shape(v.path, places.dimensions), how_to_cut(file, v, places.dimensions)));
+  if (!v.is_of(places.dimensions)) fail_of_shape(file, v, "", places.dimensions);
   if (!v.has_numbers()) file.fail(fmt::format("variable {}: expected numbers", excerpt(v.path)));
   Column column = read_column(file, v);
   if (column.is_text()) column = {column.name, column.long_name, column.units, file.values(v)};
@@ -537,22 +533,10 @@ Columns read_columns(const File& file, const Places& places, const Names& wanted
     if (has_one_per_node(v, places.dimensions))
       columns.push_back(read_column(file, v));
     else if (is_wanted)
-      file.fail(fmt::format("variable {}: expected one value per node, {}{}",
-                            file.shape(v.path, v.dimensions), file.shape(v.path, places.dimensions),
-                            how_to_cut(file, v, places.dimensions)));
+      fail_of_shape(file, v, "one value per node, ", places.dimensions);
   }
   make_names_differ(columns, {});
   return columns;
-}
-
-/// The length of the vectors, if they have one; else 1.
-double length_of_all(const std::vector<Point>& points) {
-  const auto length = [](const Point& p) { return std::hypot(p.x, p.y, p.z); };
-  const double first = points.empty() ? 1 : length(points[0]);
-  const bool is_other = std::any_of(points.begin(), points.end(), [&](const Point& p) {
-    return !(std::fabs(length(p) - first) <= kSameLength * first);
-  });
-  return is_other || std::fabs(first - 1) <= kSameLength ? 1 : first;
 }
 
 void read_notes(const File& file, Notes& notes) {
@@ -620,8 +604,7 @@ Nodes read_netcdf(const std::string& name, const ReadOptions& options, const std
   if (nodes.density.size() != nodes.points.size()) nodes.density.clear();
   if (options.with_triangles && x != nullptr && file.find("cellsOnVertex") != nullptr)
     read_mpas_triangles(file, nodes);
-  const double radius =
-      file.number(file.global(), "sphere_radius", x == nullptr ? 1 : length_of_all(nodes.points));
+  const double radius = file.number(file.global(), "sphere_radius", 1);
   if (radius > 0 && std::isfinite(radius)) nodes.radius = radius;
   if (const Variable* const nominal = file.find("nominalMinDc");
       nominal != nullptr && nominal->lengths.empty())

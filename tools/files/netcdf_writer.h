@@ -5,7 +5,6 @@
 #include <netcdf.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -46,7 +45,7 @@ class NetcdfWriter {
   int dimension(const std::string& name, std::size_t length) {
     int dimension = 0;
     check(nc_def_dim(id_, name.c_str(), length, &dimension));
-    rows_[dimension] = length;
+    lengths_[dimension] = length;
     names_.insert(name);
     return dimension;
   }
@@ -59,12 +58,6 @@ class NetcdfWriter {
     dimensions_[variable] = dimensions;
     names_.insert(name);
     for (const auto& [attribute_name, text] : attributes) attribute(variable, attribute_name.c_str(), text);
-    return variable;
-  }
-  /// The number of a variable; -1: there is none with this name.
-  int find(const std::string& name) const {
-    int variable = -1;
-    nc_inq_varid(id_, name.c_str(), &variable);
     return variable;
   }
   /// Defines a variable of double or std::int32_t. `values` must outlive the writer.
@@ -84,9 +77,11 @@ class NetcdfWriter {
   /// Defines the vectors as three variables.
   void components(const std::vector<std::string>& names, int dimension, const Notes& attributes,
                   const std::vector<Point>& points) {
-    rows<double>(names, {dimension}, attributes, [&points](std::size_t i, double* to) {
-      to[0] = points[i].x, to[1] = points[i].y, to[2] = points[i].z;
-    });
+    constexpr double Point::*kComponents[] = {&Point::x, &Point::y, &Point::z};
+    for (std::size_t k = 0; k < 3; ++k)
+      rows<double>(
+          names[k], {dimension}, attributes,
+          [&points, component = kComponents[k]](std::size_t i, double* to) { *to = points[i].*component; });
   }
   /// Defines the density of the nodes, if it is not empty.
   void density(const std::vector<double>& values, int nodes, const Notes& attributes = {}) {
@@ -101,8 +96,8 @@ class NetcdfWriter {
       if (c.is_text()) {
         expect_short_texts(c);
         id = rows<char>(
-            {name}, {dimensions[0], dimension(name + "_length", longest(c))}, {},
-            [&c](std::size_t i, char* to) { std::copy(c.texts[i].begin(), c.texts[i].end(), to); })[0];
+            name, {dimensions[0], dimension(name + "_length", longest(c))}, {},
+            [&c](std::size_t i, char* to) { std::copy(c.texts[i].begin(), c.texts[i].end(), to); });
       } else if (c.whole) {
         id = elements<std::int32_t>(name, dimensions, {},
                                     [&c](std::size_t k) { return static_cast<std::int32_t>(c.numbers[k]); });
@@ -118,17 +113,15 @@ class NetcdfWriter {
       for (const auto& [attribute_name, text] : of_mesh) attribute(id, attribute_name.c_str(), text);
     }
   }
-  /// Defines variables of one shape, at most 16 if they have one dimension, else one: row(i, values) sets the
-  /// values of row i of all of them, which are 0 before, on threads; it must not throw.
+  /// Defines a variable: row(i, values) sets the values of row i, which are 0 before, on threads; it must not
+  /// throw.
   template <class Value, class Row>
-  std::vector<int> rows(const std::vector<std::string>& names, const Dimensions& dimensions,
-                        const Notes& attributes, const Row& row) {
-    std::vector<int> ids;
-    for (const std::string& name : names)
-      ids.push_back(define(name, type_of<Value>(), dimensions, attributes));
-    const std::size_t width = width_of(dimensions), count = dimensions.empty() ? 1 : rows_.at(dimensions[0]);
-    writing_.emplace_back([this, ids, count, width, row] { put_rows<Value>(ids, count, width, row); });
-    return ids;
+  int rows(const std::string& name, const Dimensions& dimensions, const Notes& attributes, const Row& row) {
+    const int id = define(name, type_of<Value>(), dimensions, attributes);
+    const std::size_t width = width_of(dimensions),
+                      count = dimensions.empty() ? 1 : lengths_.at(dimensions[0]);
+    writing_.emplace_back([this, id, count, width, row] { put_rows<Value>(id, count, width, row); });
+    return id;
   }
 
   void attributes(const Notes& notes) {
@@ -167,13 +160,14 @@ class NetcdfWriter {
   static constexpr nc_type type_of() {
     return std::is_same_v<Value, double> ? NC_DOUBLE : std::is_same_v<Value, char> ? NC_CHAR : NC_INT;
   }
-  /// Writes `rows` rows of the variable, from `first` on.
+  /// Writes `rows` rows of the variable from `first` on.
   template <class Value>
   void put(int variable, const Value* values, std::size_t first, std::size_t rows) const {
-    std::vector<std::size_t> count;
-    for (const int dimension : dimensions_.at(variable)) count.push_back(rows_.at(dimension));
-    std::vector<std::size_t> start(count.size());
-    if (!start.empty()) start[0] = first, count[0] = rows;
+    std::vector<std::size_t> start, count;
+    for (const int dimension : dimensions_.at(variable)) {
+      start.push_back(count.empty() ? first : 0);
+      count.push_back(count.empty() ? rows : lengths_.at(dimension));
+    }
     if constexpr (std::is_same_v<Value, double>)
       check(nc_put_vara_double(id_, variable, start.data(), count.data(), values));
     else if constexpr (std::is_same_v<Value, char>)
@@ -186,33 +180,28 @@ class NetcdfWriter {
   int elements(const std::string& name, const Dimensions& dimensions, const Notes& attributes,
                const ValueAt& value) {
     const std::size_t width = width_of(dimensions);
-    return rows<Value>({name}, dimensions, attributes, [value, width](std::size_t i, Value* to) {
+    return rows<Value>(name, dimensions, attributes, [value, width](std::size_t i, Value* to) {
       for (std::size_t k = 0; k < width; ++k) to[k] = value(i * width + k);
-    })[0];
+    });
   }
   /// Number of values in a row of the first dimension.
   std::size_t width_of(const Dimensions& dimensions) const {
-    return dimensions.size() < 2 ? 1 : rows_.at(dimensions[1]);
+    return dimensions.size() < 2 ? 1 : lengths_.at(dimensions[1]);
   }
   /// Some rows at a time.
   template <class Value, class Row>
-  void put_rows(const std::vector<int>& variables, std::size_t rows, std::size_t width,
-                const Row& row) const {
-    if (rows == 0) return;  // the width may be 0
-    const std::size_t together = variables.size() * width;
-    const std::size_t most = std::min(rows, std::max<std::size_t>((std::size_t{1} << 20) / together, 1));
-    std::vector<Value> values(most * together);
+  void put_rows(int variable, std::size_t rows, std::size_t width, const Row& row) const {
+    if (rows == 0) return;  // of no faces, whose width may be 0
+    const std::size_t most = std::min(rows, std::max<std::size_t>((std::size_t{1} << 20) / width, 1));
+    std::vector<Value> values(most * width);
     for (std::size_t first = 0; first < rows; first += most) {
       const std::size_t count = std::min(most, rows - first);
       pstripack::parallel_for(count, 10 * count, [&](std::size_t i) {
-        std::array<Value, 16> one;  // a row of all variables, if there are several
-        Value* const to = variables.size() > 1 ? one.data() : values.data() + i * width;
-        std::fill(to, to + together, Value{});
+        Value* const to = values.data() + i * width;
+        std::fill(to, to + width, Value{});
         row(first + i, to);
-        for (std::size_t k = 0; variables.size() > 1 && k < together; ++k) values[k * most + i] = one[k];
       });
-      for (std::size_t k = 0; k < variables.size(); ++k)
-        put(variables[k], values.data() + k * most, first, count);
+      put(variable, values.data(), first, count);
     }
   }
   /// NetCDF gives all texts of a column the length of the longest.
@@ -244,7 +233,7 @@ class NetcdfWriter {
 
   std::string name_;
   int id_ = -1;
-  std::map<int, std::size_t> rows_;             ///< of each dimension: rows of earlier processes, own rows
+  std::map<int, std::size_t> lengths_;          ///< of each dimension
   std::map<int, Dimensions> dimensions_;        ///< of each variable
   std::set<std::string> names_;                 ///< of dimensions and variables
   std::vector<std::function<void()>> writing_;  ///< the values
