@@ -152,22 +152,15 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
             "no columns named lon and lat, or x, y and z: name them by --columns; the header has {}",
             listed(layout.names)));
       const bool is_third = options.variable == "3";  // so the first two are lon lat
-      if (options.may_have_value && !options.with_values && layout.columns == 3)
-        fail("has 3 columns: say --coordinates lonlat or xyz");
       const bool has_value = options.with_values || (options.may_have_value && layout.columns > 2);
-      if (has_value && !is_third && layout.columns != 3 && layout.columns != 4)
-        fail(fmt::format(
-            "has {} columns; expected 'lon lat value' or 'x y z value'; with more columns say --coordinates "
-            "and --variable, or --columns",
-            layout.columns));
-      if (!has_value && layout.columns != 2 && layout.columns != 3)
-        throw std::runtime_error(
-            fmt::format("{}:{}: expected 'lon lat' or 'x y z', found {} number{}{}", file, layout.line,
-                        layout.columns, layout.columns == 1 ? "" : "s",
-                        layout.columns == 1 ? ""
-                                            : ": say --coordinates lonlat or xyz, or choose --columns 1,2, "
-                                              "or of fixed widths 22-30,13-20"));
       columns = is_third ? 2 : layout.columns - (has_value ? 1 : 0);
+      const bool may_be_either = has_value && !options.with_values && layout.columns == 3;
+      if ((columns != 2 && columns != 3) || may_be_either)
+        fail(fmt::format(
+            "has {} column{}: say --coordinates lonlat or xyz, or choose --columns 1,2, or of fixed "
+            "widths 22-30,13-20; expected 'lon lat{}' or 'x y z{}'",
+            layout.columns, layout.columns == 1 ? "" : "s", has_value ? " value" : "",
+            has_value ? " value" : ""));
       choice.is_guess = options.lengths_decide && !has_value && columns == 3;
     }
     if (candidates.size() < columns)
@@ -339,67 +332,43 @@ void read_off(Nodes& nodes, std::string text, const ReadOptions& options) {
 
 }  // namespace
 
-namespace {
-
-/// True for a title, a line with nothing but the numbers of elements and nodes, and rows "1 x y z".
-bool is_grid_of_adcirc(std::string_view text) {
-  std::istringstream lines{std::string(text)};
-  std::string title, line;
-  std::getline(lines, title);
-  long elements = 0, nodes = 0, first = 0;
-  double number = 0, x = 0, y = 0, z = 0;
-  if (point_sets::parse(std::string(first_word(title)), number)) return false;
-  std::getline(lines, line);
-  std::istringstream counts(line);
-  if (!(counts >> elements >> nodes) || elements < 1 || nodes < 3 || counts >> number) return false;
-  std::getline(lines, line);
-  return static_cast<bool>(std::istringstream(line) >> first >> x >> y >> z) && first == 1;
-}
-
-}  // namespace
-
 void refuse_foreign(const std::string& file, const std::string& contents) {
-  constexpr auto kToCsv = "libreoffice --headless --convert-to csv {in}";
-  constexpr auto kToOff = "python3 -c \"import meshio; meshio.read('{in}').write('{out}.off')\"";
-  constexpr auto kToGeojson = "ogr2ogr -f GeoJSON -t_srs EPSG:4326 {out}.geojson {in}";
+  constexpr const char *kToCsv = "libreoffice --headless --convert-to csv %",
+                       *kToOff = "python3 -c \"import meshio; meshio.read('%').write('out.off')\"",
+                       *kToGeojson = "ogr2ogr -f GeoJSON -t_srs EPSG:4326 out.geojson %";
   struct Foreign {
-    std::string_view begin, inside;  ///< its first bytes, and a name inside an archive
-    const char *name, *command;
+    std::string_view begin, inside;
+    const char *name, *command;  ///< %: the file
   };
   using namespace std::string_view_literals;
   static constexpr Foreign kForeign[] = {
       {"\0\0\x27\x0A"sv, "", "a shapefile", kToGeojson},
       {"SQLite format 3", "", "a GeoPackage", kToGeojson},
-      {"<?xml", "<kml", "KML", kToGeojson},
-      {"<kml", "", "KML", kToGeojson},
+      {"<", "<kml", "KML", kToGeojson},
       {"PK\x03\x04", ".kml", "KMZ", kToGeojson},
       {"PK\x03\x04", "xl/workbook", "a spreadsheet", kToCsv},
       {"PK\x03\x04", "opendocument.spreadsheet", "a spreadsheet", kToCsv},
-      {"\xD0\xCF\x11\xE0", "W\0o\0r\0k\0b\0o\0o\0k"sv, "a spreadsheet", kToCsv},
+      {"\xD0\xCF\x11\xE0", "", "a spreadsheet", kToCsv},
       {"PAR1", "", "Parquet",
-       "python3 -c \"import pandas; pandas.read_parquet('{in}').to_csv('{out}.csv', index=False)\""},
-      {"GRIB", "", "GRIB", "cdo -f nc copy {in} {out}.nc"},
-      {"<?xml", "<VTKFile", "a VTK mesh", kToOff},
-      {"<VTKFile", "", "a VTK mesh", kToOff},
+       "python3 -c \"import pandas; pandas.read_parquet('%').to_csv('out.csv', index=False)\""},
+      {"GRIB", "", "GRIB", "cdo -f nc copy % out.nc"},
+      {"<", "<VTKFile", "a VTK mesh", kToOff},
       {"# vtk DataFile", "", "a VTK mesh", kToOff},
       {"$MeshFormat", "", "a mesh of gmsh", kToOff},
       {"", "MSHID=", "a mesh of JIGSAW",
-       "awk -F'[=;]' '/^POINT/{{n=$2;next}} n-->0{{print $1,$2,$3}}' {in} > {out}.txt"}};
-  const auto refuse = [&](const char* name, const char* command) {
-    const std::size_t dot = file.find_last_of("./");
-    const std::string stem = dot != file.npos && file[dot] == '.' ? file.substr(0, dot) : file;
-    throw std::runtime_error(
-        fmt::format("{}: {}: convert it first, by `{}`", file, name,
-                    fmt::format(fmt::runtime(command), fmt::arg("in", file), fmt::arg("out", stem))));
-  };
+       "awk -F'[=;]' '/^POINT/{n=$2;next} n-->0{print $1,$2,$3}' % > out.txt"}};
   const std::string_view whole(contents), head = whole.substr(0, 4096);
+  const auto refuse = [&](const char* name, std::string by) {
+    by.replace(by.find('%'), 1, file);
+    throw std::runtime_error(fmt::format("{}: {}: convert it first, by `{}`", file, name, by));
+  };
   for (const Foreign& f : kForeign)
     if (whole.substr(0, f.begin.size()) == f.begin &&
         (f.begin.empty() ? head : whole).find(f.inside) != whole.npos)
       refuse(f.name, f.command);
-  if (is_grid_of_adcirc(head))
-    refuse("a grid of ADCIRC or SCHISM",
-           "awk 'NR==2{{n=$2}} NR>2&&NR<=n+2{{print $2,$3,$4}}' {in} > {out}.txt");
+  const std::string suffix = std::filesystem::path(file).extension();
+  if (suffix == ".14" || suffix == ".gr3")
+    refuse("a grid of ADCIRC or SCHISM", "awk 'NR==2{n=$2} NR>2&&NR<=n+2{print $2,$3,$4}' % > out.txt");
 }
 
 LonLat Grid::places() const {

@@ -23,15 +23,20 @@ bool ends_with(const std::string& text, const std::string& end) {
   throw std::logic_error("a format that is not in the table");
 }
 
+/// The corners of a face, counted from 0.
+std::vector<std::int32_t> corners_from_0(const Faces& faces, std::size_t f) {
+  const std::int32_t* const all = faces.corner.data();
+  std::vector<std::int32_t> corners(all + faces.begin[f], all + faces.begin[f + 1]);
+  for (std::int32_t& corner : corners) --corner;
+  return corners;
+}
+
 void write_off(const OutputFile& file, const Faces& faces) {
   TextWriter out(file);
   out.print("OFF\n{} {} 0\n", faces.points.size(), faces.size());
   for (const Point& p : faces.points) out.print("{} {} {}\n", p.x, p.y, p.z);
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    out.print("{}", faces.corners(f));
-    for (std::size_t k = faces.begin[f]; k < faces.begin[f + 1]; ++k) out.print(" {}", faces.corner[k] - 1);
-    out.print("\n");
-  }
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    out.print("{} {}\n", faces.corners(f), fmt::join(corners_from_0(faces, f), " "));
   out.close();
 }
 
@@ -61,10 +66,9 @@ void write_gmsh(const OutputFile& file, const Faces& faces) {
   for (std::size_t i = 0; i < faces.points.size(); ++i)
     out.print("{} {} {} {}\n", i + 1, faces.points[i].x, faces.points[i].y, faces.points[i].z);
   out.print("$EndNodes\n$Elements\n{}\n", faces.size());
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    const std::int32_t* const c = &faces.corner[3 * f];
-    out.print("{} 2 2 1 1 {} {} {}\n", f + 1, c[0], c[1], c[2]);  // type 2, a triangle, with two tags
-  }
+  const std::int32_t* const corners = faces.corner.data();
+  for (std::size_t f = 0; f < faces.size(); ++f)  // type 2, a triangle, with two tags
+    out.print("{} 2 2 1 1 {}\n", f + 1, fmt::join(corners + 3 * f, corners + 3 * f + 3, " "));
   out.print("$EndElements\n");
   const auto write_data = [&](const char* section, const Columns& columns) {
     for (const Column& c : columns) {
@@ -96,11 +100,7 @@ void write_vtu(const OutputFile& file, const Faces& faces) {
   end();
   out.print("</Points>\n<Cells>\n");
   begin("Int32", "connectivity");
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    for (std::size_t k = faces.begin[f]; k < faces.begin[f + 1]; ++k)
-      out.print(k == faces.begin[f] ? "{}" : " {}", faces.corner[k] - 1);
-    out.print("\n");
-  }
+  for (std::size_t f = 0; f < faces.size(); ++f) out.print("{}\n", fmt::join(corners_from_0(faces, f), " "));
   end();
   begin("Int64", "offsets");
   for (std::size_t f = 0; f < faces.size(); ++f) out.print("{}\n", faces.begin[f + 1]);

@@ -228,18 +228,18 @@ def test_nodes_are_taken_as_options_say():
 
 
 @pytest.mark.parametrize("file, begin, words", [
-    ("a.b.shp", "\0\0'\n", "a shapefile: convert it first, by `ogr2ogr -f GeoJSON -t_srs EPSG:4326 a.b.geojson a.b.shp`"),
+    ("a.b.shp", "\0\0'\n", "a shapefile: convert it first, by `ogr2ogr -f GeoJSON -t_srs EPSG:4326 out.geojson a.b.shp`"),
     ("a.gpkg", "SQLite format 3",
-     "a GeoPackage: convert it first, by `ogr2ogr -f GeoJSON -t_srs EPSG:4326 a.geojson a.gpkg`"),
-    ("a.kml", "<?xml\n<kml>", "KML: convert it first, by `ogr2ogr -f GeoJSON -t_srs EPSG:4326 a.geojson a.kml`"),
-    ("a.kmz", "PK\3\4doc.kml", "KMZ: convert it first, by `ogr2ogr -f GeoJSON -t_srs EPSG:4326 a.geojson a.kmz`"),
+     "a GeoPackage: convert it first, by `ogr2ogr -f GeoJSON -t_srs EPSG:4326 out.geojson a.gpkg`"),
+    ("a.kml", "<?xml\n<kml>", "KML: convert it first, by `ogr2ogr -f GeoJSON -t_srs EPSG:4326 out.geojson a.kml`"),
+    ("a.kmz", "PK\3\4doc.kml", "KMZ: convert it first, by `ogr2ogr -f GeoJSON -t_srs EPSG:4326 out.geojson a.kmz`"),
     ("a.xlsx", "PK\3\4xl/workbook.xml",
      "a spreadsheet: convert it first, by `libreoffice --headless --convert-to csv a.xlsx`"),
     ("a.parquet", "PAR1", "Parquet: convert it first, by `python3 -c \"import pandas; "
-     "pandas.read_parquet('a.parquet').to_csv('a.csv', index=False)\"`"),
-    ("a", "GRIB", "GRIB: convert it first, by `cdo -f nc copy a a.nc`"),
+     "pandas.read_parquet('a.parquet').to_csv('out.csv', index=False)\"`"),
+    ("a", "GRIB", "GRIB: convert it first, by `cdo -f nc copy a out.nc`"),
     ("a.vtu", "<?xml?>\n<VTKFile>", "a VTK mesh: convert it first, by `python3 -c \"import meshio; "
-     "meshio.read('a.vtu').write('a.off')\"`"),
+     "meshio.read('a.vtu').write('out.off')\"`"),
     ("a.msh", "$MeshFormat", "a mesh of gmsh: convert it first, by `python3 -c"),
     ("a.msh", "# made by hand\nMSHID=3;EUCLIDEAN-MESH\nPOINT=1\n1;0;0;0\n", "a mesh of JIGSAW: convert it first, by `awk"),
     ("fort.14", "a bay\n1 3\n1 0 0 5\n2 1 0 5\n3 0 1 5\n1 3 1 2 3\n",
@@ -778,7 +778,7 @@ def test_values_and_grids_that_are_refused():
             (2, "a.txt --grid-step 30 -o b.xxx", "neither .nc nor .txt nor .csv: give --to"),
             (2, "a.txt --to-points a.txt --registration node -o b.txt", "--to-points excludes --registration"),
             (1, "octahedron.txt --grid-step 30 -o b.txt", "may be degrees or radians"),
-            (1, "two.txt --grid-step 30 -o b.txt", "two.txt: has 2 columns; expected 'lon lat value' or 'x y z value'"),
+            (1, "two.txt --grid-step 30 -o b.txt", "two.txt: has 2 columns: say --coordinates lonlat or xyz"),
             (1, "twice.txt --grid-step 30 -o b.txt", "are in the same place: remove one, or say --duplicates first"),
             (1, "cap.txt --grid-step 30 --outside error -o b.txt", "places lie outside the nodes of cap.txt, the first is "
              "place 1, lon -165 lat -75: --outside missing or nearest"),
