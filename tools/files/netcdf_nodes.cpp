@@ -539,6 +539,16 @@ Columns read_columns(const File& file, const Places& places, const Names& wanted
   return columns;
 }
 
+/// The length of the vectors, if they have one; else 1.
+double length_of_all(const std::vector<Point>& points) {
+  const auto length = [](const Point& p) { return std::hypot(p.x, p.y, p.z); };
+  const double first = points.empty() ? 1 : length(points[0]);
+  const bool is_other = std::any_of(points.begin(), points.end(), [&](const Point& p) {
+    return !(std::fabs(length(p) - first) <= kSameLength * first);
+  });
+  return is_other || std::fabs(first - 1) <= kSameLength ? 1 : first;
+}
+
 void read_notes(const File& file, Notes& notes) {
   for (const std::string& name : file.attributes(file.global()))
     if (is_note(name)) notes[name] = file.text(file.global(), name.c_str());
@@ -604,7 +614,8 @@ Nodes read_netcdf(const std::string& name, const ReadOptions& options, const std
   if (nodes.density.size() != nodes.points.size()) nodes.density.clear();
   if (options.with_triangles && x != nullptr && file.find("cellsOnVertex") != nullptr)
     read_mpas_triangles(file, nodes);
-  const double radius = file.number(file.global(), "sphere_radius", 1);
+  const double radius =
+      file.number(file.global(), "sphere_radius", x == nullptr ? 1 : length_of_all(nodes.points));
   if (radius > 0 && std::isfinite(radius)) nodes.radius = radius;
   if (const Variable* const nominal = file.find("nominalMinDc");
       nominal != nullptr && nominal->lengths.empty())
