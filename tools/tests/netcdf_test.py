@@ -240,6 +240,17 @@ def test_variables_are_what_their_attributes_say(tmp_path, variables, data, opti
     assert words in convert(file, *options)
 
 
+@pytest.mark.parametrize("attribute, radius", [("", 6371220), (":sphere_radius=7.;", 7)])
+def test_vectors_of_one_length_tell_the_radius(tmp_path, attribute, radius):
+    """Unless the attribute does."""
+    r = "6371220"
+    file = made(tmp_path, f"""dimensions: n=6; variables: double xCell(n), yCell(n), zCell(n); {attribute}
+      data: xCell={r},0,0,-{r},0,0; yCell=0,{r},0,0,-{r},0; zCell=0,0,{r},0,0,-{r};""")
+    pstripack("convert", file, "-o", str(tmp_path / "o.mpas.nc"))
+    with netCDF4.Dataset(tmp_path / "o.mpas.nc") as made_of_it:
+        assert made_of_it.sphere_radius == radius
+
+
 @pytest.mark.parametrize("lengths, words", [
     ((357913944,), "357913944 times 1"), ((20000, 20000), "20000 times 20000"), ((2**32, 2**32), "4294967296 times 1")])
 def test_what_a_header_announces_is_bounded(tmp_path, lengths, words):
