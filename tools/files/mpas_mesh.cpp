@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <unordered_set>
 #include <utility>
 
 #include "base/parallel_for.h"
@@ -133,12 +132,39 @@ std::uint32_t hash_of(const Two& vertices) {
 }
 
 /// The order in which MPAS' converter numbers edges that it finds in the order 0, 1, ...: that of its hash
-/// table, a std::unordered_set. Files of the converter and ours agree edge for edge.
+/// table, a std::unordered_set of libstdc++. Files of the converter and ours agree edge for edge.
+///
+/// The table is one list. A new entry goes to the front of its bucket's entries; if it is the first of its
+/// bucket, to the front of the list. So the buckets follow each other from the one that got its first entry
+/// last to the one that got it first, and in each the entries from the newest to the oldest. When there are
+/// as many entries as buckets, all are put one after another, in the order of the list, into a larger table.
 std::vector<Index> order_of_converter(const std::vector<std::uint32_t>& hash) {
-  const auto hash_at = [&hash](Index edge) { return std::size_t{hash[at(edge)]}; };
-  std::unordered_set<Index, decltype(hash_at)> edges(0, hash_at);
-  for (std::size_t e = 0; e < hash.size(); ++e) edges.insert(static_cast<Index>(e));
-  return {edges.begin(), edges.end()};
+  constexpr std::uint32_t kBuckets[] = {
+      13,      29,       59,       127,      257,       541,       1109,      2357,      5087,
+      10273,   20753,    42043,    85229,    172933,    351061,    712697,    1447153,   2938679,
+      5967347, 12117689, 24607243, 49969847, 101473717, 206062531, 418451333, 849749479, 1725587117};
+  const std::size_t n = hash.size();
+  std::vector<Index> list, sequence(n), first, before;
+  std::iota(sequence.begin(), sequence.end(), 0);
+  for (const std::uint32_t buckets : kBuckets) {
+    const std::size_t entries = std::min<std::size_t>(n, buckets);
+    std::copy(list.begin(), list.end(), sequence.begin());
+    // first[b]: when bucket b got its first entry. before[t]: entries in buckets that got theirs after t.
+    first.assign(buckets, kNone);
+    before.assign(entries, 0);
+    for (std::size_t t = 0; t < entries; ++t) {
+      Index& begun = first[hash[at(sequence[t])] % buckets];
+      if (begun == kNone) begun = static_cast<Index>(t);
+      ++before[at(begun)];
+    }
+    Index all = 0;
+    for (std::size_t t = entries; t-- > 0;) all += std::exchange(before[t], all);
+    list.resize(entries);
+    for (std::size_t t = entries; t-- > 0;)
+      list[at(before[at(first[hash[at(sequence[t])] % buckets])]++)] = sequence[t];
+    if (entries == n) break;
+  }
+  return list;
 }
 
 /// Sets the cells and vertices of all edges. They are found cell by cell, each at its first cell.
