@@ -246,7 +246,7 @@ def test_vectors_of_one_length_tell_the_radius(tmp_path, attribute, radius):
     r = "6371220"
     file = made(tmp_path, f"""dimensions: n=6; variables: double xCell(n), yCell(n), zCell(n); {attribute}
       data: xCell={r},0,0,-{r},0,0; yCell=0,{r},0,0,-{r},0; zCell=0,0,{r},0,0,-{r};""")
-    pstripack("convert", file, "-o", str(tmp_path / "o.mpas.nc"))
+    pstripack("triangulate", file, "-o", str(tmp_path / "o.mpas.nc"))
     with netCDF4.Dataset(tmp_path / "o.mpas.nc") as made_of_it:
         assert made_of_it.sphere_radius == radius
 

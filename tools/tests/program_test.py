@@ -1003,7 +1003,7 @@ def test_scvt_widths_in_files():
     # A run continues with the widths of its file.
     messages("scvt --start same.mpas.nc --tolerance 1e-3 -o more.off", "converged to 0.001")
     # On a rough map the energy settles, also in a run that continues.
-    rough = [700 + 350 * math.sin(7.1 * k * k) if 24 < k < 300 else 700 for k in range(13 * 25)]
+    rough = [700 + 350 * math.sin(9.1 * k * k) if 24 < k < 300 else 700 for k in range(13 * 25)]
     rough[24::25] = rough[::25]
     widths_file("rough.nc", rough, lats=range(-90, 91, 15), lons=range(-180, 181, 15))
     settles = " evaluations, settled: ten evaluations lower the energy by less than 3e-05 of it: gradient"
