@@ -20,8 +20,8 @@ struct NodeValues {
 /// weighted by one over the squared distance (Renka, Interpolation of data on the surface of a sphere, ACM
 /// TOMS 10, 1984, section 3). If the nodes do not determine a quadratic, a linear function is fitted. If the
 /// nodes around lie on a great circle, to 1e-4 of their distances, a straight line along it is fitted, and
-/// the part across it is zero. The differences between nodes are right up to 4 * 2^-53 of their lengths; how much the
-/// fit magnifies that depends on the nodes. Any number of threads gives the same bits.
+/// the part across it is zero. The differences between nodes are right up to 4 * 2^-53 of their lengths; how
+/// much the fit magnifies that depends on the nodes. Any number of threads gives the same bits.
 ///
 /// The result has `columns` consecutive gradients for each node.
 std::vector<Point> gradients(const Triangulated& mesh, const NodeValues& values);
