@@ -125,7 +125,7 @@ std::string path_of_mpirun() {
 
 /// True if `mpirun --version` names Open MPI. The other supported launcher is Hydra, of MPICH and Intel MPI.
 bool is_open_mpi(const std::string& mpirun) {
-  setenv("PSTRIPACK_MPIRUN", mpirun.c_str(), 1);  // a shell need not know how to quote it
+  setenv("PSTRIPACK_MPIRUN", mpirun.c_str(), 1);  // as a variable, its blanks need no quotes
   std::FILE* const version = popen("\"$PSTRIPACK_MPIRUN\" --version < /dev/null", "r");
   if (version == nullptr) fail(std::string("popen: ") + std::strerror(errno), 1);
   std::string text;
