@@ -360,7 +360,7 @@ TEST(MovingStars, FollowOrRefuseNodesThatAreNearlyHidden) {
 /// Whoever brings the nodes: ranks without a node, with one, with every other one.
 TEST(MovingStars, FollowHoweverNodesAreDistributed) {
   Random random(5);
-  const auto sets = sets_of(make("random", 400, 1), cases(6),
+  const auto sets = sets_of(make("random", 400, 1), 6,
                             [&](Nodes& nodes, int) { move_all(nodes, 0.01 * spacing(400), random); });
   std::vector<int> owner(400, 2);
   EXPECT_GT(follow(sets, 4, owner).warm, 0) << "ranks without nodes";
@@ -386,7 +386,7 @@ TEST(MovingStars, FollowHoweverNodesAreDistributed) {
   const Tally three = follow(more, 3, owner), alone = follow(more, 1);
   EXPECT_GT(three.warm, 5);
   EXPECT_EQ(three.warm, alone.warm);
-  EXPECT_NEAR(three.flips, alone.flips, alone.flips / 20.0);  // another order of flips may take one more
+  EXPECT_EQ(three.flips, alone.flips);  // for these nodes: in another order there may be one more
 }
 
 /// A node loses every other neighbour of its ring. All these flips share the node, so the ranks can make only
