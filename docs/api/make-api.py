@@ -268,17 +268,17 @@ IER_HEAD = """# Codes: what they mean, what to do
 
 0 is success. -1, -2 and numbers above 0 are STRIPACK's own codes and silent. The others are *new*: they also print one
 line on stderr with the [node](../glossary.md) and the reason. Each routine's page gives the state of its arrays; after a
-negative code of TRMESH they are unchanged. The library never stops your program. OpenMP's
-run-time library does if it cannot get memory.
+negative code of TRMESH they are unchanged. Only OpenMP's run-time
+library may end your program, if it gets no memory.
 
 A number below -2 has one meaning everywhere, which `pstripack_strerror` returns. -1 and -2 depend on the routine
-([below](#stripacks-own-codes)); in our own calls they mean this, too:"""
+([below](#stripacks-own-codes)); the table gives those of our own calls:"""
 
 IER_MIDDLE = """**L > 0 of TRMESH**: drop one of the two nodes. Often every column of a grid repeats the pole, or a
 meridian stands at 0 and at 360 degrees.
 
 **Distributed meshes.** Every rank gets the same code; the mesh is then empty. Rank 0 prints the line. `home`,
-and calls that return -8, print on every rank. `mesh%error_points` returns the points of -5, -9 and -10.
+and calls that return -8, print on every rank. `mesh%error_points` returns the points of -5, -9, -10 and -13.
 
 **Centroidal tessellations** return [a message](../scvt-interface.md#errors) and print nothing.
 

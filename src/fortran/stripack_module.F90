@@ -51,15 +51,16 @@ module stripack
     ! LPTR(LEND(k)), the successor of slot s in slot LPTR(s). The last neighbour of a boundary node is
     ! negated.
     ! The lists are canonical: nodes in increasing order, the neighbours of each in consecutive slots; an
-    ! interior node starts with its smallest neighbour, a boundary node with its first boundary neighbour.
-    ! Threads and ranks do not change the bytes. `PSTRIPACK_ORDER=original` returns the original's lists
-    ! wherever its triangulation is correct; `PSTRIPACK_ORDER=bitwise` also returns them where the
-    ! triangulation is not exactly Delaunay, and then the original's IER.
+    ! interior node starts with its neighbour of lowest number, a boundary node with its first boundary
+    ! neighbour. Threads and ranks do not change the bytes. `PSTRIPACK_ORDER=original` returns the original's
+    ! lists wherever its triangulation is correct; `PSTRIPACK_ORDER=bitwise` also returns them where the
+    ! triangulation is not exactly Delaunay, with the original's IER.
     ! IER  0 done; -1 N < 3; -2 nodes 1, 2, 3 lie on one great circle, by exact sign: number others first;
-    !      L > 0 nodes L and M coincide, L < M; M is the smallest such index; -4 N > 357,913,943: 6N-11 does
-    !      not fit 32 bits; in libstripack_i8 too (new); -5 a coordinate is not finite, or a node is (0,0,0)
-    !      (new); -6 out of memory (new); -7 collective calls only: the ranks disagree in N, the coordinates
-    !      or PSTRIPACK_ORDER (new); -8 collective calls only: the communicator cannot be used (new).
+    !      L > 0 node L coincides with node M, the first that repeats an earlier one; -4 N > 357,913,943:
+    !      6N-11 does not fit 32 bits; in libstripack_i8 too (new); -5 a coordinate is not finite, or a node
+    !      is (0,0,0) (new); -6 out of memory (new); -7 collective calls only: the ranks disagree in N, the
+    !      coordinates or PSTRIPACK_ORDER (new); -8 collective calls only: the communicator cannot be used
+    !      (new).
 #ifdef STRIPACK_8_ARGUMENTS
     subroutine trmesh(n, x, y, z, list, lptr, lend, ier)
       integer :: n, list(*), lptr(*), lend(n), ier
