@@ -143,6 +143,9 @@ TableOf<Value> table_of(const files::Grid& grid, const std::vector<double>& valu
   for (const std::size_t i : rows) lat.push_back(grid.lat[i]);
   require_distinct(lat, "of latitudes");
   const double spacing = (lat.back() - lat.front()) / static_cast<double>(lat.size() - 1);
+  const double near = 1e-6 * spacing;  // sums of steps miss the poles by rounding
+  if (std::fabs(lat.front() + 90) < near) lat.front() = -90;
+  if (std::fabs(lat.back() - 90) < near) lat.back() = 90;
   if (std::max(90 - lat.back(), lat.front() + 90) > 2.5 * spacing)
     throw std::runtime_error(fmt::format(
         "the grid ends at latitudes {} and {}: a density must cover the sphere", lat.front(), lat.back()));

@@ -65,6 +65,16 @@ TEST(grid_values, know_longitude_and_latitude) {
   }
 }
 
+TEST(grid_values, take_a_row_that_misses_the_pole_by_rounding_for_the_pole) {
+  files::Grid grid{ticks(-180, 0.5, 721), {}};
+  for (double lat = -90; lat < 90.05; lat += 0.1) grid.lat.push_back(lat);
+  ASSERT_NE(grid.lat.back(), 90);
+  const std::size_t rows = grid.lat.size();
+  const Table t = table(grid, [](double, double) { return 60; });
+  EXPECT_EQ(t.lat.size(), rows);
+  EXPECT_EQ(t.lat.back(), 90);
+}
+
 /// The largest field below the given one that satisfies limit_gradient()'s condition: each place against all.
 std::vector<double> limited(const Table& t, double gradient, double radius) {
   std::vector<Point> places;
