@@ -6,15 +6,8 @@
 set -u
 . "$(dirname "$0")/../mpi/jobs.sh"
 mode=$1
-dir=$WORK/ends_$mode
-start_in "$dir"
-export JOB=$dir OMP_NUM_THREADS=1
-
-fail() {
-  echo "FAILED: $mode: $*"
-  cat job.out job.err
-  exit 1
-}
+start_in "$WORK/ends_$mode"
+export OMP_NUM_THREADS=1
 
 # run MODE END WHO: runs the program; sets $code to its exit code
 run() {
@@ -22,11 +15,7 @@ run() {
   $MPIEXEC -n 3 "$PROGRAM" "$@" > job.out 2> job.err &
   job=$!
   has_ended_within 60
-  for _ in 1 2 3 4 5 6 7 8 9 10; do
-    [ -n "$(processes)" ] || return
-    sleep 0.5
-  done
-  fail "processes are left after $*: $(processes)"
+  nothing_is_left "$*"
 }
 
 # END:CODE if all ranks end so. mpiexec returns 1 if a rank ends without MPI_Finalize.

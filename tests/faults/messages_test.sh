@@ -4,20 +4,13 @@
 #   late      messages are late and in another order, with $SEEDS seeds: the results must be the same
 #   stopped   each rank stops at every $EVERY-th call of MPI for $MILLISECONDS: the results must be the same
 #   killed    each rank is killed at every $EVERY-th call of MPI: the job must end, and mpirun name the rank
-# MODE: pool, comm, distributed. LIMIT: seconds within which a job must end [60: the machine may be loaded].
+# MODE: pool, comm, distributed.
 # shellcheck disable=SC2015,SC2086,SC2154
 set -u
 . "$(dirname "$0")/../mpi/jobs.sh"
-case=$1 mode=$2 ranks=3 limit=${LIMIT:-60}
-dir=$WORK/messages_${case}_$mode
-start_in "$dir"
-export JOB=$dir OMP_NUM_THREADS=1 PSTRIPACK_POOL_MIN_NODES=100
-
-fail() {
-  echo "FAILED: $mode: $*"
-  cat job.out job.err
-  exit 1
-}
+case=$1 mode=$2 ranks=3
+start_in "$WORK/messages_${case}_$mode"
+export OMP_NUM_THREADS=1 PSTRIPACK_POOL_MIN_NODES=100
 
 # run FAULT...: runs the job with these variables for the interposer; sets $code to its exit code
 run() {
@@ -32,7 +25,7 @@ run() {
   *) $MPIEXEC $options -n $ranks "$JOB_PROGRAM" "$mode" > job.out 2> job.err & ;;
   esac
   job=$!
-  has_ended_within "$limit"
+  has_ended_within 60  # the machine may be loaded
 }
 
 # The program checks its own results; those of the model are compared with its results without a pool.
@@ -67,8 +60,7 @@ kill_at() {
   # Hydra kills all ranks at once, and says so on stdout.
   [ "$OPEN_MPI" = TRUE ] && line="rank $rank .*exited on signal 9" || line='BAD TERMINATION'
   grep -q "$line" job.out job.err || fail "mpirun does not name the rank with FAULT_KILL=$rank:$call"
-  [ -z "$(processes)" ] || sleep 3
-  [ -z "$(processes)" ] || fail "processes are left with FAULT_KILL=$rank:$call"
+  nothing_is_left FAULT_KILL=$rank:$call
   echo "rank $rank, call $call"
 }
 

@@ -24,12 +24,6 @@ fi
 
 . "$(dirname "$0")/jobs.sh"
 start_in "$dir"
-touch job.out job.err
-fail() {
-  echo "FAILED: $case: $*"
-  cat job.out job.err
-  exit 1
-}
 
 # ---- the machines
 # this_machine_is NAME: sets up a machine, within its namespaces
@@ -113,13 +107,7 @@ start() {
 ends() {
   has_ended_within "$2"
   [ $code -ne 0 ] || fail "$1: exit code 0"
-  for _ in 1 2 3 4 5 6 7 8 9 10; do
-    left=$(processes)
-    [ -n "$left" ] || return
-    sleep 0.5
-  done
-  for pid in $left; do cat "/proc/$pid/stat"; done
-  fail "$1: processes are left"
+  nothing_is_left "$1"
 }
 
 case $case in

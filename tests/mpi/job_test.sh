@@ -5,18 +5,7 @@
 set -u
 . "$(dirname "$0")/jobs.sh"
 case=$1 ranks=$2
-dir=$WORK/job_${case}_np$ranks
-rm -rf "$dir"
-mkdir -p "$dir"
-cd "$dir" || exit 1
-job=
-trap 'status=$?; [ -z "$job" ] || kill "$job" 2> /dev/null; exit $status' EXIT
-
-fail() {
-  echo "FAILED: $*"
-  for file in *.out *.err report; do [ -s "$file" ] && { echo "--- $file"; cat "$file"; }; done
-  exit 1
-}
+start_in "$WORK/job_${case}_np$ranks"
 
 # run ARGUMENT...: runs the program; PSTRIPACK_REPORT is set on rank $asking only, or on all ranks
 run() {

@@ -5,23 +5,9 @@
 # shellcheck disable=SC2015,SC2016,SC2002,SC2086,SC2094,SC2153,SC2154
 set -u
 . "$(dirname "$0")/../jobs.sh"
-job=
-trap 'status=$?; [ -z "$job" ] || kill "$job" 2> /dev/null; exit $status' EXIT
 case=$1 ranks=$2
-dir=$WORK/${case}_np$ranks
-rm -rf "$dir"
-mkdir -p "$dir"
-cd "$dir" || exit 1
-export JOB=$dir PSTRIPACK_POOL_MIN_NODES=100
-caller=$(basename "$CALLER")
-
-fail() {
-  echo "FAILED: $*"
-  for file in *.out *.err; do
-    [ -s "$file" ] && [ "$(wc -c < "$file")" -lt 20000 ] && { echo "--- $file"; cat "$file"; }
-  done
-  exit 1
-}
+start_in "$WORK/${case}_np$ranks"
+export PSTRIPACK_POOL_MIN_NODES=100
 
 # Allows more ranks than processors.
 pool() { "$RUN" -n "$ranks" --oversubscribe -- "$@"; }
@@ -41,15 +27,6 @@ as_without() {
   cmp "$name.alone.err.text" "$name.err.text" || fail "$name: stderr differs"
 }
 
-no_orphan() {
-  for _ in 1 2 3 4 5 6 7 8 9 10; do
-    [ -z "$(named pstripack-worker)$(named pstripack-keep)$(named "$caller")" ] && return
-    sleep 0.5
-  done
-  for pid in $(processes); do cat "/proc/$pid/stat"; done
-  fail "a process is left"
-}
-
 # start TEXT COMMAND...: starts the command as $job and waits until it prints TEXT
 start() {
   begun=$1
@@ -63,7 +40,7 @@ start() {
 # ends_within SECONDS: waits for the end of $job; sets $code to its exit code
 ends_within() {
   has_ended_within "$1"
-  no_orphan
+  nothing_is_left "$case"
 }
 
 case $case in
@@ -241,7 +218,7 @@ kill_mpirun | kill_run)
   ;;
 kill_model)
   start 'call 2' "$CALLER" calls 400000 400
-  kill -9 "$(named "$caller")"
+  kill -9 "$(named "$(basename "$CALLER")")"
   ends_within 10
   [ $code -eq 137 ] || fail "exit code $code"
   [ ! -s job.err ] || fail "stderr is not empty"
@@ -272,7 +249,7 @@ terminate)
     [ $code -eq 5 ] || fail "$run: exit code $code"
     printf 'waiting\nsaved, 1 signal\n' | cmp - "$run.out" || fail "$run: the model was not told once, or did not save"
     [ ! -s "$run.err" ] || fail "$run: stderr is not empty"
-    JOB=$dir/$run && no_orphan
+    JOB=$dir/$run && nothing_is_left "$run"
   done
   ;;
 terminal)
@@ -297,7 +274,7 @@ EOF
   code=$?
   [ $code -eq 137 ] || fail "exit code $code"
   [ "$(grep -c saving job.out)" -eq 1 ] || fail "not one signal"
-  no_orphan
+  nothing_is_left terminal
   ;;
 own_processes)
   # Ranks with process numbers of their own, as in containers, have no memory but what is passed to them: /proc names
