@@ -8,7 +8,7 @@ program ending_program
   use pstripack_mpi
   implicit none
   integer, parameter :: n = 2000
-  external :: trmesh
+  external :: trmesh, end_by
   character(len=20) :: mode, how, who
   type(pstripack_mesh) :: mesh
   double precision :: xyz(3, n)
@@ -26,7 +26,7 @@ program ending_program
   if (mode == 'comm' .or. mode == 'never') call pstripack_set_comm(MPI_COMM_WORLD)
   if (mode == 'distributed') call mesh%create(MPI_COMM_WORLD, ier)
   call work
-  if (status /= 0 .or. rank == only) call end_by
+  if (status /= 0 .or. rank == only) call end_now
   ! Without another call these ranks would be in MPI_Finalize when one rank calls MPI_Abort. In this case Open MPI 4.1's
   ! mpiexec crashes or hangs in some 5 of 100 runs, also for programs that do nothing else.
   if (mode == 'without' .or. (mode == 'never' .and. how == 'mpi_abort')) call MPI_Barrier(MPI_COMM_WORLD, ier)
@@ -62,36 +62,12 @@ contains
     end if
   end subroutine
 
-  subroutine end_by
-    use iso_c_binding, only: c_int
-    interface
-      subroutine c_abort() bind(c, name='abort')
-      end subroutine
-      subroutine c_exit(code) bind(c, name='exit')
-        import :: c_int
-        integer(c_int), value :: code
-      end subroutine
-    end interface
-    select case (how)
-    case ('finalize')
-      call MPI_Finalize(ier)
-      stop
-    case ('finalize3')
-      call MPI_Finalize(ier)
-      stop 3
-    case ('stop')
-      stop
-    case ('stop3')
-      stop 3
-    case ('error_stop')
-      error stop 2
-    case ('exit5')
-      call c_exit(5_c_int)
-    case ('abort')
-      call c_abort
-    case ('mpi_abort')
-      call MPI_Abort(MPI_COMM_WORLD, 7, ier)
-    end select
+  subroutine end_now
+    if (how == 'finalize' .or. how == 'finalize3') call MPI_Finalize(ier)
+    if (how == 'finalize') stop
+    if (how == 'finalize3') stop 3
+    if (how == 'mpi_abort') call MPI_Abort(MPI_COMM_WORLD, 7, ier)
+    call end_by(how)
   end subroutine
 
 end program ending_program

@@ -15,6 +15,7 @@ program model
       integer(c_int) :: pool_was_used
     end function
   end interface
+  external :: end_by
   integer, parameter :: rk = REAL_KIND
   character(len=256) :: action, argument
   integer :: lun
@@ -29,11 +30,11 @@ program model
     call get_environment_variable('PSTRIPACK_POOL', argument)
     if (argument /= ' ' .and. pool_was_used() == 0) stop 9
   case ('never')
-    call end_by(argument)
+    call end_model_by(argument)
   case default
     lun = 0
     call random_set(5000, 2.0_rk, 0)
-    call end_by(action)
+    call end_model_by(action)
   end select
 
 contains
@@ -100,32 +101,12 @@ contains
     u = real(real(seed, kind(1d0)) / 2147483647d0, rk)
   end function
 
-  subroutine end_by(how)
+  subroutine end_model_by(how)
     character(len=*), intent(in) :: how
-    interface
-      subroutine c_abort() bind(c, name='abort')
-      end subroutine
-      subroutine c_exit(code) bind(c, name='exit')
-        import :: c_int
-        integer(c_int), value :: code
-      end subroutine
-    end interface
     print '(a)', 'the model ends by ' // trim(how)
     flush (6)
-    select case (how)
-    case ('stop')
-      stop
-    case ('stop3')
-      stop 3
-    case ('error_stop')
-      error stop 2
-    case ('exit5')
-      call c_exit(5_c_int)
-    case ('abort')
-      call c_abort
-    case default
-      stop 7
-    end select
+    call end_by(how)
+    stop 7
   end subroutine
 
 end program model
