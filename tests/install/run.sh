@@ -28,16 +28,23 @@ done
 
 echo "== pkg-config"
 export LD_LIBRARY_PATH="$libdir"
-gfortran $(pkg-config --cflags stripack) "$consumer/legacy.F90" -o "$work/pc_r8" $(pkg-config --libs stripack)
-gfortran -DSINGLE_PRECISION $(pkg-config --cflags stripack_r4) "$consumer/legacy.F90" -o "$work/pc_r4" $(pkg-config --libs stripack_r4)
-gfortran -DEIGHT_ARGUMENTS $(pkg-config --cflags stripack_8arg) "$consumer/legacy.F90" -o "$work/pc_8arg" $(pkg-config --libs stripack_8arg)
-gfortran -fdefault-integer-8 $(pkg-config --cflags stripack_i8) "$consumer/legacy.F90" -o "$work/pc_i8" $(pkg-config --libs stripack_i8)
-cc $(pkg-config --cflags pstripack) "$consumer/c_api.c" -o "$work/pc_c" $(pkg-config --libs pstripack)
+# built_with PACKAGES COMMAND...: builds a program by the command, and runs it
+built_with() {
+  packages=$1
+  shift
+  # shellcheck disable=SC2086  # a list of words on purpose
+  "$@" $(pkg-config --cflags $packages) -o "$work/by_pkg_config" $(pkg-config --libs $packages)
+  "$work/by_pkg_config"
+}
+built_with stripack gfortran "$consumer/legacy.F90"
+built_with stripack_r4 gfortran -DSINGLE_PRECISION "$consumer/legacy.F90"
+built_with stripack_8arg gfortran -DEIGHT_ARGUMENTS "$consumer/legacy.F90"
+built_with stripack_i8 gfortran -fdefault-integer-8 "$consumer/legacy.F90"
+built_with pstripack cc "$consumer/c_api.c" | grep "^c_api: pstripack $version,"
 for library in stripack stripack_r4 stripack_i8; do
-  cc -Wall -Werror $(pkg-config --cflags $library) "$consumer/legacy.c" -o "$work/header" $(pkg-config --libs $library)
-  "$work/header" | grep -x 'legacy: 8 triangles'
+  built_with $library cc -Wall -Werror "$consumer/legacy.c" | grep -x 'legacy: 8 triangles'
 done
-g++ -x c++ -Wall -Werror $(pkg-config --cflags stripack) "$consumer/legacy.c" -o "$work/header" $(pkg-config --libs stripack)
+built_with stripack g++ -x c++ -Wall -Werror "$consumer/legacy.c"
 # As docs/python.md says.
 if /usr/bin/python3 -c 'import numpy.f2py, distutils' 2> "$work/no_f2py.log"; then
   echo "== f2py"
@@ -52,8 +59,6 @@ nt, triangles, ier = stripack.trlist2(list, lptr, lend)
 print("f2py:", nt, "triangles, area", sum(stripack.areas(*np.c_[x, y, z][t - 1]) for t in triangles.T[:nt]) / np.pi)' |
     grep -x 'f2py: 8 triangles, area 4.0'
 fi
-for program in pc_r8 pc_r4 pc_8arg pc_i8 pc_c; do "$work/$program"; done
-"$work/pc_c" | grep "^c_api: pstripack $version,"
 # The command of docs/api/trplot.md needs no build folder.
 if command -v gs > /dev/null; then (cd "$work" && sh "$prefix/share/doc/pstripack/examples/plots/make-plots" && head -c 8 trplot.png vrplot.png | grep -c PNG | grep -x 2); fi
 for package in stripack stripack_r4 stripack_8arg stripack_i8 stripack_f90 pstripack pstripack_fortran; do
@@ -77,17 +82,6 @@ if [ -n "$mpiexec" ]; then
   pkg-config --exact-version="$version" pstripack_mpi pstripack_mpi_fortran
   unset LD_LIBRARY_PATH
 fi
-
-echo "== the static archives alone, from Fortran and C"
-archives=$(pkg-config --libs --static stripack | sed "s|-lstripack|$libdir/libstripack.a|; s|-lpstripack|$libdir/libpstripack.a|")
-# shellcheck disable=SC2086
-gfortran -I "$prefix/include/pstripack/stripack" "$consumer/legacy.F90" -o "$work/static" $archives
-# shellcheck disable=SC2086
-cc -I "$prefix/include/pstripack/stripack" "$consumer/legacy.c" -o "$work/static_c" $archives
-for program in static static_c; do
-  "$work/$program"
-  if ldd "$work/$program" | grep -q pstripack; then echo "$program needs a shared pstripack" >&2; exit 1; fi
-done
 
 if [ -x "$prefix/bin/stripack-compare" ]; then
   echo "== stripack-compare, by itself and beside a program"
