@@ -10,7 +10,6 @@
 
 #include "child_process.h"
 #include "original.h"
-#include "support/cases.h"
 
 namespace differential {
 namespace {
@@ -115,12 +114,11 @@ void copies(NodeSet& set, Random& random) {
   }
 }
 
-std::vector<NodeSet> make_sets() {
+std::vector<NodeSet> make_sets(int each) {
   static constexpr const char* kinds[] = {"random",    "half-sphere", "cap",         "lattice 1",
                                           "lattice 2", "lattice 3",   "global grid", "regional grid",
                                           "ring",      "copies"};
   constexpr int kinds_count = static_cast<int>(std::size(kinds));
-  const int each = cases(240);
   std::vector<NodeSet> sets;
   for (int i = 0; i < each; ++i)
     for (int kind = 0; kind < kinds_count; ++kind) {
@@ -166,8 +164,8 @@ std::vector<NodeSet> make_sets() {
 
 }  // namespace
 
-const std::vector<NodeSet>& node_sets() {
-  static const std::vector<NodeSet> sets = make_sets();
+const std::vector<NodeSet>& node_sets(int each) {
+  static const std::vector<NodeSet> sets = make_sets(each);
   return sets;
 }
 

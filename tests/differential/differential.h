@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "library.h"
+#include "support/cases.h"
 
 namespace differential {
 
@@ -16,9 +17,10 @@ struct NodeSet {
   int n() const { return static_cast<int>(x.size()); }
 };
 
-/// 2400 sets of 3 to 500 nodes, the same in every run: random on the sphere, in a hemisphere or in a small
-/// cap, directions of small lattices, global and regional grids, rings with a pole, sets with exact copies.
-const std::vector<NodeSet>& node_sets();
+/// 10 times `each` sets of 3 to 500 nodes, the same in every run: random on the sphere, in a hemisphere or in
+/// a small cap, directions of small lattices, global and regional grids, rings with a pole, sets with exact
+/// copies.
+const std::vector<NodeSet>& node_sets(int each = cases(240));
 
 /// The arrays of a triangulation, with room for `most` nodes, initially filled with a mark.
 struct Lists {
