@@ -15,8 +15,8 @@
 
 namespace {
 
-using Int = StripackInteger;
-using Real = StripackReal;
+using Int = stripack_integer;
+using Real = stripack_real;
 constexpr int some_unit = 20;
 
 /// The octahedron, and calls of the two routines with a given address in the place of LOUT.

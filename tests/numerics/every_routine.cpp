@@ -15,8 +15,8 @@
 
 namespace {
 
-using Real = StripackReal;
-using Int = StripackInteger;
+using Real = stripack_real;
+using Int = stripack_integer;
 using point_sets::make;
 using point_sets::Random;
 using pstripack::Point;
@@ -571,13 +571,13 @@ std::vector<NamedNodes> spread_of_nodes() {
     for (int j = -3; j <= 3; ++j) nodes.push_back({1, i * tiny, j * 1e-310});
   special("denormal components", nodes);
   nodes = make("random", 100);
-  for (Point& p : nodes) p = {6371229 * p.x, 6371229 * p.y, 6371229 * p.z};
+  for (Point& p : nodes) p = scaled(6371229, p);
   special("radius 6371229", nodes);
   for (Point& p : nodes) p = {1e-310 * p.x, 1e-310 * p.y, 1e-310 * p.z};
   special("denormal vectors", nodes);
   nodes = make("cap:0.3", 60);
   const Point p = nodes[0];
-  nodes.push_back({-p.x, -p.y, -p.z});
+  nodes.push_back(scaled(-1, p));
   special("cap and a node opposite", nodes);
   nodes.back() = point_sets::normalized({p.y, -p.x, p.z + 0.1});
   special("cap and a node beside", nodes);

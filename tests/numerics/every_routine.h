@@ -1,6 +1,6 @@
 #pragma once
-// Calls every routine of one of the libraries libstripack* on sets of nodes that reach all its paths. The
-// library is chosen as in differential/routines.h.
+// Calls every routine of one of the libraries libstripack*, the one that is linked, on sets of nodes that
+// reach all its paths.
 
 #include <cstdint>
 #include <functional>
