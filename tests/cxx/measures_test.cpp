@@ -8,46 +8,32 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "mesh/delaunay.h"
+#include "point_sets.h"
+#include "stripack/coordinates_and_areas.h"
 #include "support/many_digits.h"
 
 namespace {
 
 using many_digits::Real;
 using many_digits::Vector;
+using point_sets::normalized;
+using point_sets::Random;
 using pstripack::Direction;
 using pstripack::Point;
 
 constexpr double kPi = 3.14159265358979323846;
 
-class Random {
- public:
-  explicit Random(unsigned seed) : generator_(seed) {}
-  double uniform(double low, double high) { return std::uniform_real_distribution<>(low, high)(generator_); }
-  Point direction() {
-    std::normal_distribution<> normal;
-    return unit({normal(generator_), normal(generator_), normal(generator_)});
-  }
-  static Point unit(const Point& p) {
-    const double l = std::sqrt(dot(p, p));
-    return {p.x / l, p.y / l, p.z / l};
-  }
-
- private:
-  std::mt19937 generator_;
-};
-
 /// A place x, y of the tangent plane at g: a unit vector up to rounding, or any length.
 Point near(const Point& g, double x, double y, double length = 1) {
-  const Point e = Random::unit(std::fabs(g.z) < 0.9 ? Point{-g.y, g.x, 0} : Point{0, -g.z, g.y}),
+  const Point e = normalized(std::fabs(g.z) < 0.9 ? Point{-g.y, g.x, 0} : Point{0, -g.z, g.y}),
               f = cross(g, e);
   const Point p{g.x + x * e.x + y * f.x, g.y + x * e.y + y * f.y, g.z + x * e.z + y * f.z};
-  const Point q = Random::unit(p);
-  return {length * q.x, length * q.y, length * q.z};
+  const Point q = normalized(p);
+  return scaled(length, q);
 }
 
 struct Errors {
@@ -151,7 +137,7 @@ TEST(Measures, OfTrianglesOfAnySize) {
   });
   row(3, "opposite", [](Random& r, Point(&p)[3]) {
     p[0] = r.direction();
-    p[1] = near({-p[0].x, -p[0].y, -p[0].z}, r.uniform(0, 1e-6), r.uniform(0, 1e-6));
+    p[1] = near(scaled(-1, p[0]), r.uniform(0, 1e-6), r.uniform(0, 1e-6));
     p[2] = r.direction();
   });
 }
@@ -260,6 +246,26 @@ TEST(Measures, OfNearCopiesOfAPole) {
     const std::vector<Point> ring{equator[k], equator[(k + 1) % 4], pole[(k + 1) % 4], pole[(k + 3) % 4],
                                   equator[(k + 3) % 4]};
     EXPECT_LE(error_of_cell(pole[k], ring), 4);
+  }
+}
+
+/// Areas of needles, flat and tiny triangles, in either orientation.
+TEST(Areas, AreRightToTwentyBits) {
+  Random random(3);
+  for (int k = 0; k < 3000; ++k) {
+    const double width = std::pow(10, -random.uniform(0, 14)), thin = std::pow(10, -random.uniform(0, 8)),
+                 length = k % 2 == 0 ? 1 : random.uniform(0.1, 1e7);
+    const Point g = random.direction(), e = random.direction(), f = random.direction();
+    Point v[3];
+    for (Point& p : v) {
+      const double x = width * random.uniform(-1, 1), y = width * thin * random.uniform(-1, 1);
+      p = scaled(length, plus(plus(g, scaled(x, e)), scaled(y, f)));
+    }
+    const Real area = abs(many_digits::area(many_digits::direction(v[0]), many_digits::direction(v[1]),
+                                            many_digits::direction(v[2])));
+    ASSERT_LE(many_digits::error(pstripack::areas(v[0], v[1], v[2]), area, area), 0x1p33)
+        << width << ' ' << thin;
+    ASSERT_EQ(pstripack::areas(v[0], v[0], v[2]), 0);
   }
 }
 

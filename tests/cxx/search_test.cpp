@@ -18,7 +18,6 @@
 #include <vector>
 
 #include "point_sets.h"
-#include "stripack/coordinates_and_areas.h"
 #include "support/data_file.h"
 #include "support/guarded.h"
 #include "support/kinds.h"
@@ -362,40 +361,5 @@ TYPED_TEST(NextNearest, GetnpIsExactInClusters) {
       ASSERT_GE(now, before) << width << ", L = " << l;
       before = now;
     }
-  }
-}
-
-/// Areas of needles, flat and tiny triangles, in either orientation, against van Oosterom & Strackee's
-/// formula in 100 digits.
-TEST(Areas, AreRightToTwentyBits) {
-  using Digits = boost::multiprecision::cpp_bin_float_100;
-  const auto area_of = [](const Vector<double>(&v)[3]) {
-    Digits p[3][3];
-    for (int k = 0; k < 3; ++k) {
-      const Digits x = v[k].x, y = v[k].y, z = v[k].z, l = sqrt(x * x + y * y + z * z);
-      p[k][0] = x / l, p[k][1] = y / l, p[k][2] = z / l;
-    }
-    const auto dot = [&](int i, int j) -> Digits {
-      return p[i][0] * p[j][0] + p[i][1] * p[j][1] + p[i][2] * p[j][2];
-    };
-    const Digits det = p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) +
-                       p[0][1] * (p[1][2] * p[2][0] - p[1][0] * p[2][2]) +
-                       p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0]);
-    return Digits(abs(2 * atan2(det, Digits(1 + dot(0, 1) + dot(1, 2) + dot(2, 0)))));
-  };
-  point_sets::Random random(3);
-  for (int k = 0; k < 3000; ++k) {
-    const double width = std::pow(10, -random.uniform(0, 14)), thin = std::pow(10, -random.uniform(0, 8)),
-                 length = k % 2 == 0 ? 1 : random.uniform(0.1, 1e7);
-    const Point g = random.direction(), e = random.direction(), f = random.direction();
-    Vector<double> v[3];
-    for (Vector<double>& p : v) {
-      const double x = width * random.uniform(-1, 1), y = width * thin * random.uniform(-1, 1);
-      p = {length * (g.x + x * e.x + y * f.x), length * (g.y + x * e.y + y * f.y),
-           length * (g.z + x * e.z + y * f.z)};
-    }
-    const Digits area = area_of(v);
-    ASSERT_LE(abs(Digits(areas(v[0], v[1], v[2]) - area)), Digits(0x1p-20 * area)) << width << ' ' << thin;
-    ASSERT_EQ(areas(v[0], v[0], v[2]), 0);
   }
 }
