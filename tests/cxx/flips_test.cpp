@@ -130,22 +130,14 @@ TEST(Flips, FollowTiesThatAppearAndVanish) {
     }
     const Nodes lattice = nodes;
     const Outcome outcome = follow(nodes, 12, [&](int step) {
-      switch (step % 4) {
-        case 0:
-          for (Point& p : nodes)
-            for (double* c : {&p.x, &p.y, &p.z})
-              if (random.below(3) == 0) *c = std::nextafter(*c, random.below(2) ? 2.0 : -2.0);
-          break;
-        case 1:
-          nodes = lattice;
-          break;
-        case 2:
-          for (Point& p : nodes) p = {-p.y, p.x, p.z};  // other ranks, the same ties
-          break;
-        case 3:
-          std::swap(nodes[random.below(40)], nodes[random.below(40)]);
-          break;
-      }
+      if (step % 4 == 0)
+        for (Point& p : nodes)
+          for (double* c : {&p.x, &p.y, &p.z})
+            if (random.below(3) == 0) *c = std::nextafter(*c, random.below(2) ? 2.0 : -2.0);
+      if (step % 4 == 1) nodes = lattice;
+      if (step % 4 == 2)
+        for (Point& p : nodes) p = {-p.y, p.x, p.z};  // other ranks, the same ties
+      if (step % 4 == 3) std::swap(nodes[random.below(40)], nodes[random.below(40)]);
     });
     all.followed += outcome.followed, all.refused += outcome.refused, all.flips += outcome.flips;
   }
@@ -229,9 +221,7 @@ TEST(Flips, RefuseNodesThatCoincideOrHide) {
     nodes[b] = point_sets::normalized({nodes[a].x + 1e-3, nodes[a].y, nodes[a].z});
     const auto meet = follow(nodes, 2, [&](int step) {
       const Point &p = nodes[a], &q = nodes[b];
-      nodes[b] = step == 0 ? point_sets::normalized({p.x + 1e-3 * (q.x - p.x), p.y + 1e-3 * (q.y - p.y),
-                                                     p.z + 1e-3 * (q.z - p.z)})
-                           : p;
+      nodes[b] = step == 0 ? point_sets::normalized(plus(p, scaled(1e-3, minus(q, p)))) : p;
     });
     coincide.followed += meet.followed, coincide.refused += meet.refused;
 
@@ -239,7 +229,7 @@ TEST(Flips, RefuseNodesThatCoincideOrHide) {
     nodes[b] = point_sets::normalized({nodes[a].x + 1e-6, nodes[a].y, nodes[a].z});
     hide.refused += follow(nodes, 1, [&](int) {
                       Point& p = nodes[b];
-                      p = {p.x * (1 - 4e-7), p.y * (1 - 4e-7), p.z * (1 - 4e-7)};
+                      p = scaled(1 - 4e-7, p);
                     }).refused;
   }
   EXPECT_GT(coincide.followed, 0);

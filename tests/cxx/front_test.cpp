@@ -77,8 +77,7 @@ Progress converged(std::vector<Point> generators, double tolerance) {
 
 TEST(Front, GivesAsManyAsAskedFor) {
   for (const std::size_t n : {4, 5, 12, 13, 100, 999, 1000, 1001, 1234, 2562, 7919})
-    for (const Density* density :
-         {static_cast<const Density*>(&kConstant), static_cast<const Density*>(&kBump)}) {
+    for (const Density* density : std::initializer_list<const Density*>{&kConstant, &kBump}) {
       SCOPED_TRACE(n);
       expect_distinct_unit_vectors(front_generators(n, *density), n);
     }

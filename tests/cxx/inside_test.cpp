@@ -86,7 +86,7 @@ TYPED_TEST(Inside, IsRightForPolygonsOfAllSizes) {
           const double scale = k % 4 == 0 ? 1 : width * 1.2;
           Vector<Real> p =
               place<Real>(scale * (2 * random.uniform() - 1), scale * (2 * random.uniform() - 1));
-          if (k % 8 == 1) p = {-p.x, -p.y, -p.z};
+          if (k % 8 == 1) p = scaled(-1, p);
           const int position = star.position(p);
           if (position == 0) continue;
           ++asked;

@@ -297,15 +297,15 @@ TEST(MovingStars, GoTheColdWayWhereTheMeshDoesNotFit) {
   follow_on_all(sets_of(nodes, 14,
                         [&](Nodes& p, int step) {
                           p = nodes;
-                          if (step == 2) p[77] = {-p[77].x, -p[77].y, -p[77].z};
+                          if (step == 2) p[77] = scaled(-1, p[77]);
                           if (step == 4) p[78] = p[79];
-                          if (step == 6) p[80] = {0.5 * p[80].x, 0.5 * p[80].y, 0.5 * p[80].z};
+                          if (step == 6) p[80] = scaled(0.5, p[80]);
                           if (step == 8)
                             for (Point& q : p) q.z = std::fabs(q.z);  // a hemisphere
                           for (Point& q : p) {
                             if (step == 10) q.z = -q.z;
                             const double length = step == 12 ? 1 + 1e-4 * random.uniform() : 1;
-                            q = {length * q.x, length * q.y, length * q.z};
+                            q = scaled(length, q);
                           }
                         }),
                 [](const Tally& tally) {
@@ -348,7 +348,7 @@ TEST(MovingStars, FollowOrRefuseNodesThatAreNearlyHidden) {
       for (const std::int32_t b : ring) {
         Point& q = p[static_cast<std::size_t>(b)];
         const Point from = p[k], d = minus(q, from);
-        q = point_sets::normalized({from.x + scale * d.x, from.y + scale * d.y, from.z + scale * d.z});
+        q = point_sets::normalized(plus(from, scaled(scale, d)));
       }
     });
     const Tally tally = follow(sets, 5);

@@ -31,9 +31,8 @@ constexpr double kPi = 3.14159265358979323846;
 
 const ConstantDensity kConstant;
 const BumpDensity kBump(point_sets::from_degrees(30, 20), 0.5, 0.2, 3);
+const Density* const kBoth[] = {&kConstant, &kBump};
 
-Point plus(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-Point times(double f, const Point& p) { return {f * p.x, f * p.y, f * p.z}; }
 double length(const Point& p) { return std::sqrt(dot(p, p)); }
 
 // ---- sums ----
@@ -122,13 +121,13 @@ void add_triangle(Integrals& sum, const Point& g, const Point& a, const Point& b
   const double volume = dot(a, cross(minus(b, a), minus(c, a)));
   for (const auto& [u, weight_u] : rule)
     for (const auto& [v, weight_v] : rule) {
-      const Point q = plus(a, times(u, plus(minus(b, a), times(v, minus(c, b)))));
+      const Point q = plus(a, scaled(u, plus(minus(b, a), scaled(v, minus(c, b)))));
       const double size = length(q);
-      const Point p = times(1 / size, q), d = minus(p, g);
+      const Point p = scaled(1 / size, q), d = minus(p, g);
       const double mass = volume * weight_u * weight_v * u / (size * size * size) * density.at(p);
       sum.mass += mass;
       sum.energy += mass * dot(d, d);
-      sum.moment = plus(sum.moment, times(mass, p));
+      sum.moment = plus(sum.moment, scaled(mass, p));
     }
 }
 
@@ -199,8 +198,7 @@ TEST(Cells, OfARoughDensityHaveMassAndEnergy) {
       const FormulaDensity jump([=](const Point& p) { return p.x + 0.3 * p.y > 0.1 ? contrast : 1.0; });
       const FormulaDensity spikes(
           [=](const Point& p) { return std::fmod(std::fabs(p.z) * 1e4, 1) < 0.01 ? contrast : 1.0; });
-      for (const Density* density :
-           {static_cast<const Density*>(&jump), static_cast<const Density*>(&spikes)}) {
+      for (const Density* density : std::initializer_list<const Density*>{&jump, &spikes}) {
         Cells cells;
         integrate(t.points.data(), t.stars, *density, cells);
         EXPECT_GT(*std::min_element(cells.mass.begin(), cells.mass.end()), 0);
@@ -212,8 +210,7 @@ TEST(Cells, OfARoughDensityHaveMassAndEnergy) {
 
 /// The derivative of the energy of all cells to a generator is -2 pull.
 TEST(Cells, PullIsTheGradientOfTheEnergy) {
-  for (const Density* density :
-       {static_cast<const Density*>(&kBump), static_cast<const Density*>(&kConstant)})
+  for (const Density* density : kBoth)
     for (const std::size_t n : {12, 3000}) {
       SCOPED_TRACE(n);
       const Tessellated t = relaxed(n, *density, 1);
@@ -231,9 +228,9 @@ TEST(Cells, PullIsTheGradientOfTheEnergy) {
         for (const Point& axis : {Point{0, 0, 1}, Point{1, 0, 0}}) {
           const Point g = t.points[i], direction = point_sets::normalized(cross(axis, g));
           std::vector<Point> points = t.points;
-          points[i] = point_sets::normalized(plus(g, times(step, direction)));
+          points[i] = point_sets::normalized(plus(g, scaled(step, direction)));
           ExactSum difference = energy(points, 1);
-          points[i] = point_sets::normalized(plus(g, times(-step, direction)));
+          points[i] = point_sets::normalized(plus(g, scaled(-step, direction)));
           difference += energy(points, -1);
           EXPECT_NEAR(difference.value() / (2 * step), -2 * dot(cells.pull[i], direction),
                       2e-4 * cells.mass[i] * width);
@@ -325,8 +322,7 @@ TEST(Run, TakesFewEvaluations) {
 TEST(Run, EnergyNeverRises) {
   const FormulaDensity jump([](const Point& p) { return p.x + 0.3 * p.y > 0.1 ? 100.0 : 1.0; });
   const FormulaDensity contrast([](const Point& p) { return std::pow(10, 8 * p.z * p.z); });
-  for (const Density* density : {static_cast<const Density*>(&kConstant), static_cast<const Density*>(&kBump),
-                                 static_cast<const Density*>(&jump), static_cast<const Density*>(&contrast)})
+  for (const Density* density : std::initializer_list<const Density*>{&kConstant, &kBump, &jump, &contrast})
     for (const Method method : {Method::newton, Method::lloyd}) {
       RunOptions options = options_of(1e-6);
       options.method = method;
@@ -357,8 +353,7 @@ TEST(Run, HasTheSameBitsForAnyNumberOfThreads) {
     return run(21000, density, options);
   };
   const int threads = omp_get_max_threads();
-  for (const Density* density :
-       {static_cast<const Density*>(&kConstant), static_cast<const Density*>(&kBump)}) {
+  for (const Density* density : kBoth) {
     const Tessellation one = result(1, *density), two = result(2, *density);
     EXPECT_EQ(one.state.generators, two.state.generators);
     EXPECT_EQ(one.result.progress.energy, two.result.progress.energy);
@@ -526,7 +521,7 @@ TEST(Run, GoesOnWithAScaledDensity) {
   for (const int shift : {0, 20}) {
     State copy = state;
     for (State::Pair& pair : copy.pairs)
-      for (SinglePoint& p : pair.change) p = single(times(std::ldexp(1, shift), point(p)));
+      for (SinglePoint& p : pair.change) p = single(scaled(std::ldexp(1, shift), point(p)));
     copy.exponent -= shift;
     LocalEvaluator another(density);
     minimize(another, copy, options);
@@ -549,7 +544,7 @@ TEST(Run, SeparatesGeneratorsThatNearlyCoincide) {
   for (const double width : {1e-8, 1e-12}) {
     std::vector<Point>& cluster = sets.emplace_back(point_sets::make("random", 30, 1));
     for (const Point& p : point_sets::make("random", 30, 2))
-      cluster.push_back(point_sets::normalized(plus({0.3, -0.5, 0.8}, times(width, p))));
+      cluster.push_back(point_sets::normalized(plus({0.3, -0.5, 0.8}, scaled(width, p))));
   }
   for (const std::vector<Point>& points : sets)
     for (const Method method : {Method::newton, Method::lloyd}) {
@@ -591,7 +586,7 @@ TEST(Metric, IsSymmetricAndPositive) {
         for (std::vector<Point>* const field : {&a, &b})
           for (const Point& g : generators) {
             const Point v = random.direction();
-            field->push_back(minus(v, times(dot(v, g), g)));
+            field->push_back(minus(v, scaled(dot(v, g), g)));
           }
         const std::vector<Point> of_a = solved(metric, a), of_b = solved(metric, b);
         const double ab = product(a, of_b), aa = product(a, of_a), bb = product(b, of_b);
@@ -639,7 +634,7 @@ TEST_F(Safeguards, ADirectionThatDoesNotDescendGivesWayToLloyd) {
   State::Pair pair;  // of a concave energy, as no run keeps one
   for (const Point& pull : cells.pull) {
     pair.step.push_back(single(pull));
-    pair.change.push_back(single(times(-1e-6, pull)));
+    pair.change.push_back(single(scaled(-1e-6, pull)));
   }
   state.pairs.push_back(pair);
   state.steps = state.evaluations = 1;

@@ -24,30 +24,16 @@ void move(Input& input, Nodes& nodes) {
   pstripack::Point& p = nodes[static_cast<std::size_t>(input.below(static_cast<int>(nodes.size())))];
   double* const component[] = {&p.x, &p.y, &p.z};
   double& c = *component[input.below(3)];
-  switch (input.below(6)) {
-    case 0:
-      c = std::nextafter(c, 2);
-      break;
-    case 1:
-      c = std::nextafter(c, -2);
-      break;
-    case 2:
-      c = -c;
-      break;
-    case 3:
-      p = general_direction(input);
-      break;
-    case 4:
-      p = any_vector(input, nodes);
-      break;
-    case 5: {
-      const auto towards = general_direction(input);
-      const double by = std::ldexp(1.0, -input.below(32));
-      p = {p.x + by * towards.x, p.y + by * towards.y, p.z + by * towards.z};
-      const double length = std::sqrt(pstripack::dot(p, p));
-      p = {p.x / length, p.y / length, p.z / length};
-      break;
-    }
+  const int kind = input.below(6);
+  if (kind < 2) c = std::nextafter(c, kind == 0 ? 2 : -2);
+  if (kind == 2) c = -c;
+  if (kind == 3) p = general_direction(input);
+  if (kind == 4) p = any_vector(input, nodes);
+  if (kind == 5) {
+    const auto towards = general_direction(input);
+    p = plus(p, scaled(std::ldexp(1.0, -input.below(32)), towards));
+    const double length = std::sqrt(pstripack::dot(p, p));
+    p = {p.x / length, p.y / length, p.z / length};
   }
 }
 

@@ -12,8 +12,6 @@ using point_sets::normalized;
 using point_sets::Random;
 using pstripack::Point;
 
-Point scaled(const Point& p, double factor) { return {p.x * factor, p.y * factor, p.z * factor}; }
-
 /// The nonzero integer vectors with components up to +-`largest` for which keep(p) is true.
 template <class Keep>
 Nodes lattice(int largest, const Keep& keep) {
@@ -89,15 +87,16 @@ Nodes radial_multiples(Random& random) {
   const Nodes directions = some(lattice(1), 10, random);
   const double lengths[] = {1, 1, 2, 3, 0.5, 0x1p-1074, 0x1p-600, 0x1p1000};
   Nodes nodes;
-  for (int i = 0; i < kPoolSize; ++i)
-    nodes.push_back(
-        scaled(directions[random.below(directions.size())], lengths[random.below(std::size(lengths))]));
+  for (int i = 0; i < kPoolSize; ++i) {
+    const double length = lengths[random.below(std::size(lengths))];
+    nodes.push_back(scaled(length, directions[random.below(directions.size())]));
+  }
   return nodes;
 }
 
 Nodes antipodes(Random& random) {
   Nodes nodes = rounded(some(lattice(2), kPoolSize / 2, random));
-  for (int i = 0; i < kPoolSize / 2; ++i) nodes.push_back(scaled(nodes[i], -1));
+  for (int i = 0; i < kPoolSize / 2; ++i) nodes.push_back(scaled(-1, nodes[i]));
   return nodes;
 }
 
@@ -123,7 +122,7 @@ Nodes lengths_near_1(Random& random) {
   Nodes nodes;
   for (int i = 0; i < kPoolSize; ++i) {
     const double step = i < 2 ? 0x1p-19 : (static_cast<double>(random.below(9)) - 4) * 0x1p-22;
-    nodes.push_back(scaled(places[random.below(places.size())], 1 + step));
+    nodes.push_back(scaled(1 + step, places[random.below(places.size())]));
   }
   return nodes;
 }

@@ -1,7 +1,7 @@
 // Millions of small sets of nodes: compares lists and codes of TRMESH bit by bit with those of brute force in
 // exact arithmetic, and at intervals with CGAL.
 //
-//   small_sets [--first A] [--count B] [--threads T] [--cgal-every K]
+//   small_sets [--first A] [--count B] [--threads T]
 //
 // Case number k is the same in every run: 3 to 12 points of a pool of 16 in random order, now and then one of
 // them twice. Some thousand consecutive cases share a pool. The signs of its triples and fours are computed
@@ -31,7 +31,7 @@
 
 namespace {
 
-constexpr std::uint64_t kCasesOfPool = 4096;
+constexpr std::uint64_t kCasesOfPool = 4096, kCgalEvery = 64;
 constexpr int kMostNodes = 12;
 
 using Mask = std::uint16_t;  // points of a pool, a bit each
@@ -318,8 +318,8 @@ struct Counts {
 
 class Run {
  public:
-  Run(std::uint64_t first, std::uint64_t count, std::uint64_t cgal_every)
-      : first_(first), end_(first + count), cgal_every_(cgal_every), next_pool_(first / kCasesOfPool) {}
+  Run(std::uint64_t first, std::uint64_t count)
+      : first_(first), end_(first + count), next_pool_(first / kCasesOfPool) {}
 
   /// True if all cases are right.
   bool on_threads(unsigned threads) {
@@ -365,7 +365,7 @@ class Run {
     counts.ties += tie;
 #ifdef HAVE_CGAL
     // A flat hull has no facets.
-    if (cgal_every_ == 0 || number % cgal_every_ != 0 || right.outcome != Outcome::as_given || flat) return;
+    if (number % kCgalEvery != 0 || right.outcome != Outcome::as_given || flat) return;
     ++counts.cgal;
     if (!agrees_with_cgal(pool, drawn, right)) fail(number, pool, drawn, right, "CGAL");
 #endif
@@ -397,7 +397,7 @@ class Run {
   }
 
   static constexpr std::uint64_t kProgress = 1000000;
-  const std::uint64_t first_, end_, cgal_every_;
+  const std::uint64_t first_, end_;
   std::atomic<std::uint64_t> next_pool_;
   std::atomic<int> wrong_{0};
   std::mutex mutex_;
@@ -409,13 +409,11 @@ class Run {
 
 int main(int argc, char** argv) {
   CLI::App app{"TRMESH of small degenerate sets of nodes against brute force and CGAL"};
-  std::uint64_t first = 0, count = 1000000, cgal_every = 64;
+  std::uint64_t first = 0, count = 1000000;
   unsigned threads = 1;
   app.add_option("--first", first, "number of the first case")->capture_default_str();
   app.add_option("--count", count, "number of cases")->capture_default_str();
   app.add_option("--threads", threads)->capture_default_str();
-  app.add_option("--cgal-every", cgal_every, "also compare every K-th case with CGAL; 0: none")
-      ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  return Run(first, count, cgal_every).on_threads(threads) ? 0 : 1;
+  return Run(first, count).on_threads(threads) ? 0 : 1;
 }

@@ -27,7 +27,7 @@ inline void move_all(Nodes& nodes, double distance, point_sets::Random& random) 
   for (auto& p : nodes) {
     const auto d = random.direction();
     const double by = distance * random.uniform();
-    p = point_sets::normalized({p.x + by * d.x, p.y + by * d.y, p.z + by * d.z});
+    p = point_sets::normalized(plus(p, scaled(by, d)));
   }
 }
 
