@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "base/workspace.h"
-#include "capi/pstripack_mpi.h"
-#include "mpi/mpi_test.h"
+#include "mpi/distributions.h"
 #include "point_sets.h"
 #include "support/expect.h"
 #include "support/failing_allocation.h"
@@ -69,33 +68,11 @@ const Nodes& nodes() {
   return random;
 }
 
-struct Part {
-  Part() {
-    for (auto i = static_cast<std::size_t>(rank_of()); i < nodes().size();
-         i += static_cast<std::size_t>(size_of())) {
-      number.push_back(static_cast<std::int64_t>(i) + 1);
-      xyz.insert(xyz.end(), {nodes()[i].x, nodes()[i].y, nodes()[i].z});
-    }
-  }
-  int triangulate(pstripack_mesh* mesh) const {
-    return pstripack_mesh_triangulate(mesh, static_cast<std::int64_t>(number.size()), xyz.data(),
-                                      number.data());
-  }
-  std::vector<double> xyz;
-  std::vector<std::int64_t> number;
-};
-
-std::int64_t points_of(const pstripack_mesh* mesh) {
-  std::int64_t points, arcs, triangles, halo;
-  pstripack_mesh_sizes(mesh, &points, &arcs, &triangles, &halo);
-  return points;
-}
-
 // Must be the first test, so that allocations of the first call of the process also fail.
 TEST(EachAllocation, OfCommMode) {
   Mesh m;
   const Columns c(nodes());
-  const auto clear_arrays = [&] { m = room_for(nodes().size()); };
+  const auto clear_arrays = [&] { m = {room_for(nodes().size())}; };
   const Mesh expected = trmesh(nodes());
   const auto call = [&] {
     return pstripack_trmesh(static_cast<std::int32_t>(nodes().size()), c.x.data(), c.y.data(), c.z.data(),
@@ -120,12 +97,11 @@ TEST(EachAllocation, OfDistributedMeshes) {
   fail_each_allocation([&] { return pstripack_mesh_create(MPI_COMM_WORLD, &mesh); },
                        [&](int code) { return (code == 0) == (mesh != nullptr); }, free_it);
 
-  const Part part;
+  const Part part(nodes());
   ASSERT_EQ(pstripack_mesh_create(MPI_COMM_WORLD, &mesh), 0);
-  const auto all = static_cast<std::int64_t>(part.number.size());
   fail_each_allocation(
       [&] { return part.triangulate(mesh); },
-      [&](int code) { return points_of(mesh) == (code == 0 ? all : 0); },
+      [&](int code) { return Sizes(mesh).points == (code == 0 ? part.count() : 0); },
       // Empties the mesh, which frees its memory.
       [&] { EXPECT_EQ(pstripack_mesh_triangulate(mesh, -1, nullptr, nullptr), PSTRIPACK_BAD_SIZE); });
 
@@ -134,7 +110,7 @@ TEST(EachAllocation, OfDistributedMeshes) {
   for (const std::int32_t root : {0, -1}) {
     const bool gets = root == -1 || rank_of() == root;
     Mesh m;
-    const auto clear_arrays = [&] { m = room_for(nodes().size()); };
+    const auto clear_arrays = [&] { m = {room_for(nodes().size())}; };
     clear_arrays();
     fail_each_allocation(
         [&] {
@@ -151,13 +127,12 @@ TEST(EachAllocation, OfDistributedMeshes) {
 }
 
 TEST(EachAllocation, OfCentroidalTessellations) {
-  pstripack_mesh* mesh = nullptr;
-  ASSERT_EQ(pstripack_mesh_create(MPI_COMM_WORLD, &mesh), 0);
+  const OfMesh mesh;
   pstripack_scvt_options options{};
   options.bytes = sizeof options;
   options.start = PSTRIPACK_SCVT_GIVEN;
   options.most_evaluations = 5;  // three steps of Lloyd's method and one that makes the first pair
-  const Part given;
+  const Part given(nodes());
   Part part = given;
   pstripack_scvt_result result;
   char message[200];
@@ -165,13 +140,12 @@ TEST(EachAllocation, OfCentroidalTessellations) {
     part.xyz = given.xyz;
     message[0] = '\0';
     result.evaluations = untouched;
-    return pstripack_mesh_scvt(mesh, static_cast<std::int64_t>(part.number.size()), part.xyz.data(),
-                               part.number.data(), nullptr, &options, &result, message, sizeof message);
+    return pstripack_mesh_scvt(mesh, part.count(), part.xyz.data(), part.number.data(), nullptr, &options,
+                               &result, message, sizeof message);
   };
   ASSERT_EQ(scvt(), 0);
   const std::vector<double> moved = part.xyz;
   ASSERT_NE(moved, given.xyz);
-  const auto all = static_cast<std::int64_t>(part.number.size());
   const auto empty_mesh = [&] {
     EXPECT_EQ(pstripack_mesh_triangulate(mesh, -1, nullptr, nullptr), PSTRIPACK_BAD_SIZE);
   };
@@ -180,25 +154,22 @@ TEST(EachAllocation, OfCentroidalTessellations) {
       scvt,
       [&](int code) {
         const bool is_done = code == 0;
-        return part.xyz == (is_done ? moved : given.xyz) && points_of(mesh) == (is_done ? all : 0) &&
+        return part.xyz == (is_done ? moved : given.xyz) &&
+               Sizes(mesh).points == (is_done ? part.count() : 0) &&
                result.evaluations == (is_done ? 5 : untouched) &&
                message == std::string(is_done ? "" : pstripack_strerror(code));
       },
       empty_mesh, 151);
-  pstripack_mesh_free(mesh);
 }
 
 // Not collective: each rank has its own code.
 TEST(EachAllocation, OfTheCallsOfOneRank) {
-  pstripack_mesh* mesh = nullptr;
-  const Part part;
-  ASSERT_EQ(pstripack_mesh_create(MPI_COMM_WORLD, &mesh), 0);
+  const OfMesh mesh;
+  const Part part(nodes());
   ASSERT_EQ(part.triangulate(mesh), 0);
-  std::int64_t points, arcs, triangles, halo;
-  pstripack_mesh_sizes(mesh, &points, &arcs, &triangles, &halo);
-  std::vector<std::int64_t> begin(static_cast<std::size_t>(points) + 1, untouched);
-  std::vector<std::int32_t> neighbour(static_cast<std::size_t>(arcs), untouched),
-      rank(begin.size() - 1, untouched);
+  std::vector<std::int64_t> begin(part.number.size() + 1, untouched);
+  std::vector<std::int32_t> neighbour(static_cast<std::size_t>(Sizes(mesh).arcs), untouched),
+      rank(part.number.size(), untouched);
   ASSERT_EQ(pstripack_mesh_local_stars(mesh, begin.data(), neighbour.data()), 0);
   const auto expected_begin = begin;
   const auto expected = neighbour;
@@ -219,14 +190,13 @@ TEST(EachAllocation, OfTheCallsOfOneRank) {
     EXPECT_TRUE(begin == (failed ? empty_begin : expected_begin) && neighbour == (failed ? empty : expected));
     {
       const FailingAllocation memory(which);
-      home = pstripack_mesh_home(mesh, points, part.xyz.data(), rank.data());
+      home = pstripack_mesh_home(mesh, part.count(), part.xyz.data(), rank.data());
       EXPECT_FALSE(FailingAllocation::happened());
     }
     EXPECT_EQ(home, 0);
     pstripack::free_cached_blocks();
     EXPECT_EQ(FailingAllocation::blocks(), 0u);
   }
-  pstripack_mesh_free(mesh);
 }
 
 }  // namespace

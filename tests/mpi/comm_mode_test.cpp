@@ -164,7 +164,7 @@ TEST(CommMode, RefusesWhatIsNoIntraCommunicatorAndKeepsTheOneBefore) {
   const MPI_Comm handle = freed;
   MPI_Comm_free(&freed);
   EXPECT_EQ(pstripack_set_comm(handle), PSTRIPACK_BAD_COMM);
-  EXPECT_EQ(pstripack_set_comm_f(-1), PSTRIPACK_BAD_COMM);
+  for (const int none : {-1, 12345678}) EXPECT_EQ(pstripack_set_comm_f(none), PSTRIPACK_BAD_COMM);
   if (size_of() < 2) return;
   MPI_Comm half, inter;
   const int colour = rank_of() % 2;

@@ -184,29 +184,6 @@ std::int32_t code_of_communicator(MPI_Comm comm) {
   }
 }
 
-TEST(Communicator, RefusesWhatIsNoIntraCommunicator) {
-  EXPECT_EQ(code_of_communicator(MPI_COMM_NULL), -8);
-
-  MPI_Comm freed;
-  MPI_Comm_dup(MPI_COMM_WORLD, &freed);
-  const MPI_Comm handle = freed;
-  MPI_Comm_free(&freed);
-  EXPECT_EQ(code_of_communicator(handle), -8);
-  EXPECT_EQ(code_of_communicator(MPI_Comm_f2c(-1)), -8);
-  EXPECT_EQ(code_of_communicator(MPI_Comm_f2c(12345678)), -8);
-
-  if (size_of() > 1) {
-    MPI_Comm half, inter;
-    const int colour = rank_of() % 2;
-    MPI_Comm_split(MPI_COMM_WORLD, colour, 0, &half);
-    MPI_Intercomm_create(half, 0, MPI_COMM_WORLD, 1 - colour, 1, &inter);
-    EXPECT_EQ(code_of_communicator(inter), -8);
-    EXPECT_EQ(code_of_communicator(half), 0);
-    MPI_Comm_free(&inter);
-    MPI_Comm_free(&half);
-  }
-}
-
 TEST(Communicator, LeavesTheErrorHandlersOfTheProgramAlone) {
   EXPECT_EQ(code_of_communicator(MPI_COMM_NULL), -8);
   EXPECT_EQ(code_of_communicator(MPI_COMM_WORLD), 0);

@@ -1,11 +1,14 @@
 #pragma once
-// How nodes may be distributed over the ranks.
+// How nodes may be distributed over the ranks, and distributed meshes of them.
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
+#include "capi/pstripack_mpi.h"
 #include "mpi_test.h"
+#include "support/lists.h"
 
 /// The rank of each node (from 0), and whether a rank passes its nodes in reverse.
 struct Distribution {
@@ -37,3 +40,43 @@ inline std::vector<std::size_t> nodes_here(const Distribution& d, std::size_t n)
   if (d.reversed) std::reverse(mine.begin(), mine.end());
   return mine;
 }
+
+using Number = std::function<std::int64_t(std::size_t)>;  // of the node (from 0)
+inline std::int64_t from_one(std::size_t i) { return static_cast<std::int64_t>(i) + 1; }
+
+/// A rank's points and their numbers, as distributed meshes take them.
+struct Part {
+  Part(const Nodes& nodes, const std::vector<std::size_t>& mine, const Number& number_of = from_one) {
+    for (const std::size_t i : mine) {
+      xyz.insert(xyz.end(), {nodes[i].x, nodes[i].y, nodes[i].z});
+      number.push_back(number_of(i));
+    }
+  }
+  /// Every n-th node on n ranks.
+  explicit Part(const Nodes& nodes) : Part(nodes, nodes_here(distributions()[1], nodes.size())) {}
+  std::int64_t count() const { return static_cast<std::int64_t>(number.size()); }
+  std::int32_t triangulate(pstripack_mesh* mesh) const {
+    return pstripack_mesh_triangulate(mesh, count(), xyz.data(), number.data());
+  }
+  std::vector<double> xyz;
+  std::vector<std::int64_t> number;
+};
+
+class OfMesh {
+ public:
+  OfMesh() { EXPECT_EQ(pstripack_mesh_create(MPI_COMM_WORLD, &mesh_), 0); }
+  ~OfMesh() { pstripack_mesh_free(mesh_); }
+  OfMesh(const OfMesh&) = delete;
+  OfMesh& operator=(const OfMesh&) = delete;
+  operator pstripack_mesh*() const { return mesh_; }
+
+ private:
+  pstripack_mesh* mesh_ = nullptr;
+};
+
+struct Sizes {
+  explicit Sizes(const pstripack_mesh* mesh) {
+    pstripack_mesh_sizes(mesh, &points, &arcs, &triangles, &halo);
+  }
+  std::int64_t points, arcs, triangles, halo;
+};

@@ -20,8 +20,7 @@
 #include <cstring>
 #include <vector>
 
-#include "capi/pstripack_mpi.h"
-#include "mpi_test.h"
+#include "distributions.h"
 #include "point_sets.h"
 #include "support/trmesh.h"
 
@@ -37,42 +36,19 @@ bool in_comm_mode() {
   return trmesh(nodes).ier == 31;
 }
 
-/// This rank's nodes: every n-th one on n ranks.
-struct Share {
-  explicit Share(const Nodes& nodes) {
-    for (auto i = static_cast<std::size_t>(rank_of()); i < nodes.size();
-         i += static_cast<std::size_t>(size_of())) {
-      number.push_back(static_cast<std::int64_t>(i) + 1);
-      for (const double c : {nodes[i].x, nodes[i].y, nodes[i].z}) xyz.push_back(c);
-    }
-  }
-  std::int32_t triangulate(pstripack_mesh* mesh) const {
-    return pstripack_mesh_triangulate(mesh, static_cast<std::int64_t>(number.size()), xyz.data(),
-                                      number.data());
-  }
-  std::vector<std::int64_t> number;
-  std::vector<double> xyz;
-};
-
 bool distributed() {
   const Nodes nodes = point_sets::make("cap", 500);
-  pstripack_mesh* mesh = nullptr;
-  if (pstripack_mesh_create(MPI_COMM_WORLD, &mesh) != 0 || Share(nodes).triangulate(mesh) != 0) return false;
-  Lists lists;
-  lists.list.resize(6 * nodes.size() - 12);
-  lists.lptr.resize(6 * nodes.size() - 12);
-  lists.lend.resize(nodes.size());
-  const int code =
-      pstripack_mesh_gather(mesh, 0, lists.list.data(), lists.lptr.data(), lists.lend.data(), &lists.lnew);
-  pstripack_mesh_free(mesh);
-  return code == 0 && (rank_of() != 0 || verdict(nodes, lists).empty());
+  const OfMesh mesh;
+  if (Part(nodes).triangulate(mesh) != 0) return false;
+  Mesh m{room_for(nodes.size())};
+  const int code = pstripack_mesh_gather(mesh, 0, m.list.data(), m.lptr.data(), m.lend.data(), &m.lnew);
+  return code == 0 && (rank_of() != 0 || verdict(nodes, m).empty());
 }
 
 /// Calls with the points at home; the third begins with the stars of the second.
 bool messages(const Nodes& nodes) {
-  Share share(nodes);
-  pstripack_mesh* mesh = nullptr;
-  if (pstripack_mesh_create(MPI_COMM_WORLD, &mesh) != 0) return false;
+  Part part(nodes);
+  const OfMesh mesh;
   const auto count = [&](const char* what, const auto& call) {
     sent = 0;
     if (call() != 0) MPI_Abort(MPI_COMM_WORLD, 1);
@@ -80,24 +56,21 @@ bool messages(const Nodes& nodes) {
     MPI_Reduce(&sent, &most, 1, MPI_INT, MPI_MAX, 0, MPI_COMM_WORLD);
     if (rank_of() == 0) std::printf("%s: %d messages on %d ranks\n", what, most, size_of());
   };
-  const auto triangulate = [&] { return share.triangulate(mesh); };
+  const auto triangulate = [&] { return part.triangulate(mesh); };
   count("first call", triangulate);
   std::vector<std::int32_t> home(nodes.size());
   std::vector<double> xyz;
   for (const auto& p : nodes) xyz.insert(xyz.end(), {p.x, p.y, p.z});
   pstripack_mesh_home(mesh, static_cast<std::int64_t>(nodes.size()), xyz.data(), home.data());
-  share.number.clear(), share.xyz.clear();
+  std::vector<std::size_t> here;
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    if (home[i] == rank_of()) {
-      share.number.push_back(static_cast<std::int64_t>(i) + 1);
-      share.xyz.insert(share.xyz.end(), {nodes[i].x, nodes[i].y, nodes[i].z});
-    }
+    if (home[i] == rank_of()) here.push_back(i);
+  part = Part(nodes, here);
   count("points have moved home", triangulate);
   count("cold call", triangulate);
   count("warm call", triangulate);
   std::vector<double> halo(nodes.size());
-  count("exchange", [&] { return pstripack_mesh_exchange(mesh, share.xyz.data(), 1, halo.data()); });
-  pstripack_mesh_free(mesh);
+  count("exchange", [&] { return pstripack_mesh_exchange(mesh, part.xyz.data(), 1, halo.data()); });
   return true;
 }
 
@@ -140,14 +113,14 @@ int main(int argc, char** argv) {
     for_ever(with_error, [&] { return trmesh(nodes).ier; });
   const bool with_null = std::strcmp(action, "null_mesh") == 0;
   if (with_null || std::strcmp(action, "meshes") == 0) {
-    const Share share(nodes);
-    pstripack_mesh* mesh = nullptr;
-    if (pstripack_mesh_create(MPI_COMM_WORLD, &mesh) == 0)
-      for_ever(with_error, [&] {
-        const std::int32_t code = share.triangulate(mesh);
-        if (with_null && rank_of() == 1) mesh = nullptr;
-        return code;
-      });
+    const Part part(nodes);
+    const OfMesh mesh;
+    bool is_null = false;
+    for_ever(with_error, [&] {
+      const std::int32_t code = part.triangulate(is_null ? nullptr : static_cast<pstripack_mesh*>(mesh));
+      is_null = with_null && rank_of() == 1;
+      return code;
+    });
   }
   MPI_Finalize();
   return right ? 0 : 1;

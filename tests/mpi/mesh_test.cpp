@@ -23,39 +23,7 @@
 
 namespace {
 
-using Number = std::function<std::int64_t(std::size_t)>;  // of the node (from 0)
-std::int64_t from_one(std::size_t i) { return static_cast<std::int64_t>(i) + 1; }
-std::int64_t huge(std::size_t i) { return (static_cast<std::int64_t>(i) + 1) * (std::int64_t{1} << 40) + 5; }
-
-class OfMesh {
- public:
-  explicit OfMesh(MPI_Comm comm = MPI_COMM_WORLD) { EXPECT_EQ(pstripack_mesh_create(comm, &mesh_), 0); }
-  ~OfMesh() { pstripack_mesh_free(mesh_); }
-  OfMesh(const OfMesh&) = delete;
-  OfMesh& operator=(const OfMesh&) = delete;
-  operator pstripack_mesh*() const { return mesh_; }
-
- private:
-  pstripack_mesh* mesh_ = nullptr;
-};
-
-int triangulate(pstripack_mesh* mesh, const Nodes& nodes, const std::vector<std::size_t>& mine,
-                const Number& number) {
-  std::vector<double> xyz;
-  std::vector<std::int64_t> numbers;
-  for (const std::size_t i : mine) {
-    xyz.insert(xyz.end(), {nodes[i].x, nodes[i].y, nodes[i].z});
-    numbers.push_back(number(i));
-  }
-  return pstripack_mesh_triangulate(mesh, static_cast<std::int64_t>(mine.size()), xyz.data(), numbers.data());
-}
-
-struct Sizes {
-  explicit Sizes(const pstripack_mesh* mesh) {
-    pstripack_mesh_sizes(mesh, &points, &arcs, &triangles, &halo);
-  }
-  std::int64_t points, arcs, triangles, halo;
-};
+std::int64_t huge(std::size_t i) { return from_one(i) * (std::int64_t{1} << 40) + 5; }
 
 std::int64_t sum(std::int64_t value) {
   MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
@@ -196,7 +164,7 @@ TEST(DistributedMesh, StarsAreThoseOfTheSerialLists) {
       for (const auto& d : distributions()) {
         SCOPED_TRACE(std::string(family) + ", " + std::to_string(n) + ", " + d.name);
         const auto mine = nodes_here(d, nodes.size());
-        ASSERT_EQ(triangulate(mesh, nodes, mine, from_one), 0);
+        ASSERT_EQ(Part(nodes, mine).triangulate(mesh), 0);
         check(mesh, nodes, mine, from_one, rings);
       }
     }
@@ -209,7 +177,7 @@ TEST(DistributedMesh, NumbersMayHaveSixtyFourBits) {
   for (const auto& d : distributions()) {
     SCOPED_TRACE(d.name);
     const auto mine = nodes_here(d, nodes.size());
-    ASSERT_EQ(triangulate(mesh, nodes, mine, huge), 0);
+    ASSERT_EQ(Part(nodes, mine, huge).triangulate(mesh), 0);
     check(mesh, nodes, mine, huge, rings);
     EXPECT_EQ(pstripack_mesh_gather(mesh, -1, nullptr, nullptr, nullptr, nullptr), PSTRIPACK_BAD_NUMBER);
   }
@@ -222,7 +190,7 @@ TEST(DistributedMesh, GathersTheCanonicalLists) {
     const Mesh serial = trmesh(nodes);
     for (const auto& d : distributions())
       for (const int root : {-1, 0, size_of() - 1}) {
-        ASSERT_EQ(triangulate(mesh, nodes, nodes_here(d, nodes.size()), from_one), 0);
+        ASSERT_EQ(Part(nodes, nodes_here(d, nodes.size())).triangulate(mesh), 0);
         std::uint64_t fingerprint = 0;
         EXPECT_EQ(pstripack_mesh_check(mesh, &fingerprint), 0);
         EXPECT_EQ(fingerprint,
@@ -247,13 +215,13 @@ TEST(DistributedMesh, IsTheSameInAnyFloatingPointEnvironmentAndLeavesItAsItWas) 
     const Mesh serial = trmesh(nodes);
     const auto mine = nodes_here(distributions()[1], nodes.size());
     pstripack_mesh* mesh = nullptr;
-    Mesh gathered = room_for(nodes.size());
+    Mesh gathered{room_for(nodes.size())};
     std::vector<std::int32_t> home(1), usual_home(1);
     bool is_as_before;
     {
       const StrangeEnvironment environment;
       const Environment before;
-      gathered.ier = pstripack_mesh_create(MPI_COMM_WORLD, &mesh) + triangulate(mesh, nodes, mine, from_one) +
+      gathered.ier = pstripack_mesh_create(MPI_COMM_WORLD, &mesh) + Part(nodes, mine).triangulate(mesh) +
                      pstripack_mesh_gather(mesh, -1, gathered.list.data(), gathered.lptr.data(),
                                            gathered.lend.data(), &gathered.lnew) +
                      pstripack_mesh_home(mesh, 1, &nodes[0].x, home.data());
@@ -272,17 +240,12 @@ TEST(DistributedMesh, IsTheSameInAnyFloatingPointEnvironmentAndLeavesItAsItWas) 
 TEST(DistributedMesh, NothingOutsideTheArraysIsTouched) {
   const Nodes nodes = point_sets::make("hemisphere", 300);
   const auto mine = nodes_here(distributions()[1], nodes.size());
-  std::vector<double> coordinates;
-  std::vector<std::int64_t> numbers;
-  for (const std::size_t i : mine) {
-    coordinates.insert(coordinates.end(), {nodes[i].x, nodes[i].y, nodes[i].z});
-    numbers.push_back(from_one(i));
-  }
-  const auto n = static_cast<std::int64_t>(mine.size());
+  const Part part(nodes, mine);
+  const std::int64_t n = part.count();
   for (const Edge edge : {Edge::begin, Edge::end}) {
     const OfMesh mesh;
-    Guarded<double> xyz(coordinates, edge);
-    Guarded<std::int64_t> number(numbers, edge);
+    Guarded<double> xyz(part.xyz, edge);
+    Guarded<std::int64_t> number(part.number, edge);
     xyz.make_read_only(), number.make_read_only();
     ASSERT_EQ(pstripack_mesh_triangulate(mesh, n, xyz.data(), number.data()), 0);
     Guarded<std::int32_t> rank(mine.size(), edge);
@@ -311,6 +274,14 @@ TEST(DistributedMesh, NothingOutsideTheArraysIsTouched) {
   }
 }
 
+/// A mesh of random nodes in slices.
+struct OfSlices : OfMesh {
+  explicit OfSlices(std::size_t n) : nodes(point_sets::make("random", n)) { EXPECT_EQ(triangulate(), 0); }
+  std::int32_t triangulate() const { return Part(nodes, mine).triangulate(*this); }
+  const Nodes nodes;
+  const std::vector<std::size_t> mine = nodes_here(distributions()[0], nodes.size());
+};
+
 using Failed = std::tuple<int, std::int64_t, std::int64_t>;  ///< the code, and the points that it is about
 
 /// Expects the same failure for every distribution, and an empty mesh after it.
@@ -319,8 +290,8 @@ void expect_failure(const Nodes& nodes, const Number& number, const Failed& expe
   for (const auto& d : distributions()) {
     SCOPED_TRACE(d.name);
     const auto good = point_sets::make("random", 20);
-    ASSERT_EQ(triangulate(mesh, good, nodes_here(d, good.size()), from_one), 0);
-    const int code = triangulate(mesh, nodes, nodes_here(d, nodes.size()), number);
+    ASSERT_EQ(Part(good, nodes_here(d, good.size())).triangulate(mesh), 0);
+    const int code = Part(nodes, nodes_here(d, nodes.size()), number).triangulate(mesh);
     std::int64_t first = 0, second = 0;
     pstripack_mesh_error_points(mesh, &first, &second);
     EXPECT_EQ(Failed(code, first, second), expected);
@@ -372,7 +343,7 @@ TEST(DistributedMesh, WritesALineOfEachNewCode) {
   OfMesh mesh;
   const auto expect_line = [&](const Nodes& nodes, const auto& number, const std::string& line) {
     expect_lines_of_rank_0(
-        line, [&] { triangulate(mesh, nodes, nodes_here(distributions()[0], nodes.size()), number); });
+        line, [&] { Part(nodes, nodes_here(distributions()[0], nodes.size()), number).triangulate(mesh); });
   };
   Nodes nodes = point_sets::make("random", 30);
   expect_line(nodes, from_one, "");
@@ -391,7 +362,7 @@ TEST(DistributedMesh, WritesALineOfEachNewCode) {
 }
 
 TEST(DistributedMesh, RefusesCountsThatCannotBeAndNamesTheRank) {
-  OfMesh mesh;
+  const OfMesh mesh;
   const int odd = size_of() - 1;
   const std::string of_rank = "rank " + std::to_string(odd) + ": n = ";
   for (const auto& [n, code, line] : {std::tuple<std::int64_t, std::int32_t, std::string>{
@@ -401,20 +372,17 @@ TEST(DistributedMesh, RefusesCountsThatCannotBeAndNamesTheRank) {
     expect_lines_of_rank_0("mesh_triangulate: " + of_rank + line, [&, n = n, code = code] {
       EXPECT_EQ(pstripack_mesh_triangulate(mesh, rank_of() == odd ? n : 0, nullptr, nullptr), code);
     });
-  const Nodes nodes = point_sets::make("random", 30);
-  ASSERT_EQ(triangulate(mesh, nodes, nodes_here(distributions()[0], nodes.size()), from_one), 0);
+  const OfSlices made(30);
   testing::internal::CaptureStderr();
-  EXPECT_EQ(pstripack_mesh_home(mesh, -1, nullptr, nullptr), PSTRIPACK_BAD_SIZE);
+  EXPECT_EQ(pstripack_mesh_home(made, -1, nullptr, nullptr), PSTRIPACK_BAD_SIZE);
   EXPECT_NE(testing::internal::GetCapturedStderr().find("mesh_home: rank " + std::to_string(rank_of()) +
                                                         ": n = -1"),
             std::string::npos);
 }
 
 TEST(DistributedMesh, GatherRefusesRootsThatDifferOrDoNotExist) {
-  OfMesh mesh;
-  const Nodes nodes = point_sets::make("random", 30);
-  ASSERT_EQ(triangulate(mesh, nodes, nodes_here(distributions()[0], nodes.size()), from_one), 0);
-  Mesh m = trmesh(nodes);
+  const OfSlices mesh(30);
+  Mesh m = trmesh(mesh.nodes);
   const int odd = size_of() - 1;
   const auto gather = [&](int root) {
     return pstripack_mesh_gather(mesh, root, m.list.data(), m.lptr.data(), m.lend.data(), &m.lnew);
@@ -430,7 +398,7 @@ TEST(DistributedMesh, GatherRefusesRootsThatDifferOrDoNotExist) {
   for (const int root : {-2, size_of()})
     expect_lines_of_rank_0("mesh_gather: there is no rank " + std::to_string(root) + " (IER = -8)",
                            [&] { EXPECT_EQ(gather(root), PSTRIPACK_BAD_COMM); });
-  EXPECT_TRUE(m == trmesh(nodes));
+  EXPECT_TRUE(m == trmesh(mesh.nodes));
   EXPECT_EQ(gather(-1), 0);
 }
 
@@ -454,10 +422,7 @@ bool declines(pstripack_mesh* mesh) {
 }
 
 TEST(DistributedMesh, DeclinesCallsOfThreadsAndForkedChildrenThatMustNotCallMpi) {
-  OfMesh mesh;
-  const Nodes nodes = point_sets::make("random", 30);
-  const auto mine = nodes_here(distributions()[0], nodes.size());
-  ASSERT_EQ(triangulate(mesh, nodes, mine, from_one), 0);
+  const OfSlices mesh(30);
   EXPECT_EQ(in_child([&] {
               if (!declines(mesh)) return 1;
               pstripack_mesh_free(mesh);
@@ -475,7 +440,7 @@ TEST(DistributedMesh, DeclinesCallsOfThreadsAndForkedChildrenThatMustNotCallMpi)
       EXPECT_EQ(pstripack_set_comm(MPI_COMM_WORLD), PSTRIPACK_BAD_COMM);
     }).join();
   ASSERT_EQ(pstripack_mesh_gather(mesh, -2, nullptr, nullptr, nullptr, nullptr), PSTRIPACK_BAD_COMM);
-  EXPECT_EQ(triangulate(mesh, nodes, mine, from_one), 0);
+  EXPECT_EQ(mesh.triangulate(), 0);
 }
 
 /// Expects a call of the mesh to return a code, and one line of rank 0.
@@ -484,10 +449,7 @@ void expect_line(const std::function<int()>& call, int code, const std::string& 
 }
 
 TEST(DistributedMesh, ExchangeRefusesWidthsAlikeOnEveryRank) {
-  OfMesh mesh;
-  const Nodes nodes = point_sets::make("random", 60);
-  const auto mine = nodes_here(distributions()[0], nodes.size());
-  ASSERT_EQ(triangulate(mesh, nodes, mine, from_one), 0);
+  const OfSlices mesh(60);
   const int odd = size_of() - 1;
   std::vector<double> values(1000), halo(1000, -1);
   const auto exchange = [&](std::int64_t there, std::int64_t here) {
@@ -507,7 +469,7 @@ TEST(DistributedMesh, ExchangeRefusesWidthsAlikeOnEveryRank) {
       expect_line(exchange(width, width), PSTRIPACK_OUT_OF_MEMORY, "mesh_exchange: out of memory");
   }
   EXPECT_EQ(halo, std::vector<double>(1000, -1));
-  check(mesh, nodes, mine, from_one, serial_rings(nodes));
+  check(mesh, mesh.nodes, mesh.mine, from_one, serial_rings(mesh.nodes));
 }
 
 TEST(DistributedMesh, ATriangulationAndTheEndOfTheMeshEndExchanges) {
@@ -531,7 +493,7 @@ TEST(DistributedMesh, ATriangulationAndTheEndOfTheMeshEndExchanges) {
         expect_no_exchange(mesh, 7, PSTRIPACK_BAD_SIZE,
                            "width is not that with which the exchange has begun");
       }
-    ASSERT_EQ(triangulate(mesh, nodes, mine, from_one), 0);
+    ASSERT_EQ(Part(nodes, mine).triangulate(mesh), 0);
     expect_no_exchange(mesh, 1000, PSTRIPACK_EMPTY_MESH, no_exchange);
     check(mesh, nodes, mine, from_one, serial_rings(nodes));
   }
@@ -545,13 +507,11 @@ TEST(DistributedMesh, ATriangulationAndTheEndOfTheMeshEndExchanges) {
 
 TEST(DistributedMesh, RanksThatMakeDifferentCallsAreToldWhich) {
   if (size_of() == 1) return;
-  OfMesh mesh;
-  const Nodes nodes = point_sets::make("random", 60);
-  const auto mine = nodes_here(distributions()[0], nodes.size());
-  const std::vector<double> values(mine.size());
+  const OfSlices mesh(60);
+  const std::vector<double> values(mesh.mine.size());
   char message[100] = "";
   const std::pair<const char*, std::function<int()>> calls[] = {
-      {"mesh_triangulate", [&] { return triangulate(mesh, nodes, mine, from_one); }},
+      {"mesh_triangulate", [&] { return mesh.triangulate(); }},
       {"mesh_gather", [&] { return pstripack_mesh_gather(mesh, -1, nullptr, nullptr, nullptr, nullptr); }},
       {"mesh_exchange", [&] { return pstripack_mesh_exchange_begin(mesh, values.data(), 1); }},
       {"mesh_check", [&] { return pstripack_mesh_check(mesh, nullptr); }}};
@@ -559,7 +519,7 @@ TEST(DistributedMesh, RanksThatMakeDifferentCallsAreToldWhich) {
     for (std::size_t b = 0; b < std::size(calls); ++b) {
       if (a == b) continue;
       const auto& [name, call] = calls[rank_of() == size_of() - 1 ? b : a];
-      ASSERT_EQ(triangulate(mesh, nodes, mine, from_one), 0);
+      ASSERT_EQ(mesh.triangulate(), 0);
       expect_line(call, PSTRIPACK_RANKS_DISAGREE,
                   std::string(calls[a].first) + ": some ranks have called " + calls[std::min(a, b)].first +
                       ", others " + calls[std::max(a, b)].first);

@@ -11,7 +11,6 @@
 #include <tuple>
 #include <vector>
 
-#include "capi/pstripack_mpi.h"
 #include "distributions.h"
 #include "point_sets.h"
 #include "support/trmesh.h"
@@ -38,7 +37,7 @@ Nodes start_of(std::size_t n) {
   Nodes nodes = point_sets::make("random", n, 2);
   for (std::size_t i = 0; i < n; ++i) {
     const double length = 1 + static_cast<double>(i % 3);
-    nodes[i] = {length * nodes[i].x, length * nodes[i].y, length * nodes[i].z};
+    nodes[i] = scaled(length, nodes[i]);
   }
   return nodes;
 }
@@ -46,31 +45,16 @@ Nodes start_of(std::size_t n) {
 /// This rank's generators, and a run of all.
 struct RunOfRanks {
   RunOfRanks(const Nodes& nodes, const Distribution& distribution)
-      : mine(nodes_here(distribution, nodes.size())) {
-    EXPECT_EQ(pstripack_mesh_create(MPI_COMM_WORLD, &mesh), 0);
-    for (const std::size_t i : mine) {
-      xyz.insert(xyz.end(), {nodes[i].x, nodes[i].y, nodes[i].z});
-      number.push_back(static_cast<std::int64_t>(i) + 1);
-    }
-  }
-  ~RunOfRanks() { pstripack_mesh_free(mesh); }
-  RunOfRanks(const RunOfRanks&) = delete;
-  RunOfRanks& operator=(const RunOfRanks&) = delete;
+      : mine(nodes_here(distribution, nodes.size())), part(nodes, mine) {}
 
   std::int32_t operator()(const pstripack_density* density, const pstripack_scvt_options* options) {
-    return pstripack_mesh_scvt(mesh, static_cast<std::int64_t>(number.size()), xyz.data(), number.data(),
-                               density, rank_of() == 0 ? options : nullptr, &result, message, sizeof message);
-  }
-  std::int64_t points_of_mesh() const {
-    std::int64_t points, arcs, triangles, halo;
-    pstripack_mesh_sizes(mesh, &points, &arcs, &triangles, &halo);
-    return points;
+    return pstripack_mesh_scvt(mesh, part.count(), part.xyz.data(), part.number.data(), density,
+                               rank_of() == 0 ? options : nullptr, &result, message, sizeof message);
   }
 
-  pstripack_mesh* mesh = nullptr;
-  std::vector<std::size_t> mine;  // from 0
-  std::vector<double> xyz;
-  std::vector<std::int64_t> number;
+  const OfMesh mesh;
+  const std::vector<std::size_t> mine;  // from 0
+  Part part;
   pstripack_scvt_result result{-1, -1, -1, -1, -1};
   char message[300] = "";
 };
@@ -91,9 +75,9 @@ struct Serial {
 void expect_same(const RunOfRanks& found, const Serial& expected) {
   for (std::size_t i = 0; i < found.mine.size(); ++i) {
     const std::size_t k = found.mine[i];
-    ASSERT_EQ(found.xyz[3 * i], expected.x[k]) << k;
-    ASSERT_EQ(found.xyz[3 * i + 1], expected.y[k]) << k;
-    ASSERT_EQ(found.xyz[3 * i + 2], expected.z[k]) << k;
+    ASSERT_EQ(found.part.xyz[3 * i], expected.x[k]) << k;
+    ASSERT_EQ(found.part.xyz[3 * i + 1], expected.y[k]) << k;
+    ASSERT_EQ(found.part.xyz[3 * i + 2], expected.z[k]) << k;
   }
   EXPECT_EQ(found.result.energy, expected.result.energy);
   EXPECT_EQ(found.result.gradient, expected.result.gradient);
@@ -186,17 +170,12 @@ TEST(DistributedScvt, LeavesTheMeshOfWhatItReturns) {
   const pstripack_scvt_options options = of_evaluations(10);
   RunOfRanks run(start, distributions()[0]);
   ASSERT_EQ(run(&bump, &options), 0) << run.message;
+  Nodes found = start;
   const Serial expected(start, &bump, options);
-  std::vector<std::int32_t> list(6 * 200 - 12), lptr(list.size()), lend(200), list_of_serial(list.size()),
-      lptr_of_serial(list.size()), lend_of_serial(200);
-  std::int32_t lnew, lnew_of_serial;
-  ASSERT_EQ(pstripack_mesh_gather(run.mesh, -1, list.data(), lptr.data(), lend.data(), &lnew), 0);
-  ASSERT_EQ(
-      pstripack_trmesh(200, expected.x.data(), expected.y.data(), expected.z.data(), list_of_serial.data(),
-                       lptr_of_serial.data(), lend_of_serial.data(), &lnew_of_serial),
-      0);
-  EXPECT_EQ(list, list_of_serial);
-  EXPECT_EQ(lend, lend_of_serial);
+  for (std::size_t i = 0; i < 200; ++i) found[i] = {expected.x[i], expected.y[i], expected.z[i]};
+  Mesh m{room_for(200)};
+  ASSERT_EQ(pstripack_mesh_gather(run.mesh, -1, m.list.data(), m.lptr.data(), m.lend.data(), &m.lnew), 0);
+  EXPECT_TRUE(m == trmesh(found));
 }
 
 TEST(DistributedScvt, ProgressOnRank0StopsAllRanks) {
@@ -239,15 +218,15 @@ std::string of_rank_0(const char* text) {
 void expect_refusal(RunOfRanks& run, std::int32_t code, const std::string& why,
                     const pstripack_density* density = nullptr,
                     const pstripack_scvt_options& options = of_evaluations(5)) {
-  const std::vector<double> before = run.xyz;
+  const std::vector<double> before = run.part.xyz;
   EXPECT_EQ(run(density, &options), code) << run.message;
   EXPECT_NE(std::string(run.message).find(why), std::string::npos) << run.message << "\n" << why;
   EXPECT_EQ(of_rank_0(run.message), run.message);
   EXPECT_TRUE(before.empty() ||
-              std::memcmp(before.data(), run.xyz.data(), before.size() * sizeof before[0]) == 0);
+              std::memcmp(before.data(), run.part.xyz.data(), before.size() * sizeof before[0]) == 0);
   EXPECT_EQ(run.result.energy, -1);
   EXPECT_EQ(run.result.reason, -1);
-  EXPECT_EQ(run.points_of_mesh(), 0);
+  EXPECT_EQ(Sizes(run.mesh).points, 0);
 }
 
 TEST(DistributedScvt, BadDensitiesAreToldOnEveryRank) {
@@ -309,7 +288,7 @@ TEST(DistributedScvt, BadGeneratorsAreToldOnEveryRank) {
       EXPECT_EQ(points[0] == 21 && points[1] == 71, code == PSTRIPACK_COINCIDENT) << why;
     };
     Nodes nodes = good;
-    nodes[20] = {2 * nodes[70].x, 2 * nodes[70].y, 2 * nodes[70].z};
+    nodes[20] = scaled(2, nodes[70]);
     refuses(nodes, PSTRIPACK_COINCIDENT, "generators 21 and 71 coincide");
     nodes[20] = {1, kNan, 0};
     refuses(nodes, PSTRIPACK_BAD_COORDINATE, "generator 21 has no direction");
@@ -319,11 +298,11 @@ TEST(DistributedScvt, BadGeneratorsAreToldOnEveryRank) {
     refuses({}, PSTRIPACK_TOO_FEW_NODES, "at least 4 generators, here are 0");
 
     RunOfRanks twice(good, distribution);
-    for (std::int64_t& number : twice.number)
+    for (std::int64_t& number : twice.part.number)
       if (number == 9) number = 8;
     expect_refusal(twice, PSTRIPACK_BAD_NUMBER, "number 8 occurs twice");
     RunOfRanks zero(good, distribution);
-    for (std::int64_t& number : zero.number) --number;
+    for (std::int64_t& number : zero.part.number) --number;
     expect_refusal(zero, PSTRIPACK_BAD_NUMBER, "number 0 is below 1");
   }
 }
@@ -331,16 +310,16 @@ TEST(DistributedScvt, BadGeneratorsAreToldOnEveryRank) {
 TEST(DistributedScvt, ACountOfOneRankIsRefusedOnAll) {
   RunOfRanks run(start_of(50), distributions()[0]);
   for (const std::int64_t count : {std::int64_t{-1}, std::int64_t{1} << 29}) {
-    const std::int64_t n = rank_of() == size_of() - 1 ? count : static_cast<std::int64_t>(run.number.size());
-    const std::vector<double> before = run.xyz;
-    EXPECT_EQ(pstripack_mesh_scvt(run.mesh, n, run.xyz.data(), run.number.data(), nullptr, nullptr,
+    const std::int64_t n = rank_of() == size_of() - 1 ? count : run.part.count();
+    const std::vector<double> before = run.part.xyz;
+    EXPECT_EQ(pstripack_mesh_scvt(run.mesh, n, run.part.xyz.data(), run.part.number.data(), nullptr, nullptr,
                                   &run.result, run.message, sizeof run.message),
               count < 0 ? PSTRIPACK_BAD_SIZE : PSTRIPACK_TOO_MANY_NODES);
     EXPECT_EQ(std::string(run.message),
               "rank " + std::to_string(size_of() - 1) +
                   (count < 0 ? ": n = -1 is below 0"
                              : ": n = 536870912: a rank may have at most 536870911 points"));
-    EXPECT_EQ(run.xyz, before);
+    EXPECT_EQ(run.part.xyz, before);
   }
 }
 
