@@ -29,15 +29,6 @@ Point shaken(const Point& p, Random& random) {
   return {one(p.x), one(p.y), one(p.z)};
 }
 
-/// In the given and in two random orders.
-void expect_as_promised_in_any_order(Nodes nodes, const std::string& what) {
-  EXPECT_TRUE(is_as_promised(nodes)) << what;
-  for (const std::uint64_t seed : {1, 2}) {
-    point_sets::shuffle(nodes, seed);
-    EXPECT_TRUE(is_as_promised(nodes)) << what << ", shuffled, seed " << seed;
-  }
-}
-
 TEST(GreatCircle, ThroughThePolesShakenByUlpsIsCorrect) {
   Random random(1);
   for (int longitude = 0; longitude < 180; longitude += 3)
@@ -145,7 +136,7 @@ TEST(HiddenNodes, AmongLengthsWithin1em7OfOneAreCorrect) {
     Nodes nodes = make(family, 3000);
     for (Point& p : nodes) {
       const double length = 1 + 1e-7 * random.uniform(-1, 1);
-      p = {p.x * length, p.y * length, p.z * length};
+      p = scaled(length, p);
     }
     EXPECT_EQ(is_decided_by_directions(nodes), std::string(family) == "cap:1e-3") << family;
     expect_as_promised_in_any_order(nodes, family);
@@ -162,7 +153,7 @@ TEST(HiddenNodes, AndTiesTogetherAreCorrect) {
           for (int z = -1; z <= 1; ++z)
             if (x != 0 || y != 0 || z != 0) nodes.push_back(normalized({double(x), double(y), double(z)}));
       Point& p = nodes[static_cast<std::size_t>(which)];
-      p = {p.x * (1 - shorter), p.y * (1 - shorter), p.z * (1 - shorter)};
+      p = scaled(1 - shorter, p);
       for (const Point& q : make("cap:1e-4", 50)) nodes.push_back(q);
       for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         point_sets::shuffle(nodes, seed);

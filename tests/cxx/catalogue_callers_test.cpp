@@ -162,7 +162,7 @@ TEST(OutOfMemory, IsReportedAndTouchesNothing) {
     const int code = in_child([&] {
       const Columns c(nodes);
       const std::size_t n = nodes.size();
-      Mesh m = room_for(n);
+      Mesh m{room_for(n)};
       const std::size_t bytes = usage().all + kilobytes * 1024;
       const rlimit limit{bytes, bytes};
       if (setrlimit(RLIMIT_AS, &limit) != 0 || std::freopen("/dev/null", "w", stderr) == nullptr) return 90;

@@ -97,7 +97,7 @@ TEST(Duplicate, TheSameDirectionWithAnotherLengthIsReported) {
   for (const double scale : {2.0, 0.5, 0x1p-500, 0x1p900}) {
     Nodes nodes = make("random", 50);
     const Point p = nodes[10];
-    nodes[30] = {scale * p.x, scale * p.y, scale * p.z};
+    nodes[30] = scaled(scale, p);
     expect_duplicate(nodes, 11, 31);
   }
   // Lengths that differ by less than 1e-6: without the check for copies one node would only hide the other.
@@ -143,12 +143,9 @@ TEST(NearDuplicates, PolesAndLongitudesRepeatedAreCorrect) {
   for (const auto& [rows, columns] :
        {std::pair{18, 36}, {3, 3}, {2, 4}, {36, 5}, {11, 9}, {2, 1000}, {180, 360}})
     for (const bool poles : {false, true})
-      for (const bool seam_twice : {false, true}) {
-        Nodes nodes = naive_grid(rows, columns, poles, seam_twice);
-        EXPECT_TRUE(is_as_promised(nodes)) << rows << " x " << columns;
-        point_sets::shuffle(nodes, 1);
-        EXPECT_TRUE(is_as_promised(nodes)) << rows << " x " << columns << ", shuffled";
-      }
+      for (const bool seam_twice : {false, true})
+        expect_as_promised_in_any_order(naive_grid(rows, columns, poles, seam_twice),
+                                        std::to_string(rows) + " x " + std::to_string(columns), 1);
 }
 
 TEST(NearDuplicates, AllNeighboursWithinTwoUlpsAreCorrect) {  // 125 nodes in a cube of five ulps

@@ -61,15 +61,11 @@ TEST(FewNodes, ThreeOnAGreatCircleAreCollinear) {
 // ---- The Platonic solids ----
 
 Nodes rotated(const Nodes& nodes, Random& random) {
-  const Point a = random.direction();
-  Point b = random.direction();
-  const double along = a.x * b.x + a.y * b.y + a.z * b.z;
-  b = normalized({b.x - along * a.x, b.y - along * a.y, b.z - along * a.z});
-  const Point c{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  const Point a = random.direction(), any = random.direction();
+  const Point b = normalized(minus(any, scaled(dot(any, a), a))), c = cross(a, b);
   Nodes result;
   for (const Point& p : nodes)
-    result.push_back(normalized({p.x * a.x + p.y * b.x + p.z * c.x, p.x * a.y + p.y * b.y + p.z * c.y,
-                                 p.x * a.z + p.y * b.z + p.z * c.z}));
+    result.push_back(normalized(plus(plus(scaled(p.x, a), scaled(p.y, b)), scaled(p.z, c))));
   return result;
 }
 
@@ -138,14 +134,11 @@ TEST(GreatCircle, FirstThreeExactlyOnOneAreCollinear) {
 }
 
 TEST(GreatCircle, FirstThreeRoundedAreNotUnlessTheDeterminantIsZero) {
-  int zeros = 0;
   for (int longitude = 1; longitude < 360; ++longitude) {
     const Nodes nodes =
         behind({from_degrees(longitude, -20), from_degrees(longitude, 10), from_degrees(longitude, 50)}, 30);
-    zeros += expected_ier(nodes) == -2;
     ASSERT_TRUE(is_as_promised(nodes)) << "longitude " << longitude;
   }
-  RecordProperty("exactly_collinear", zeros);
   EXPECT_EQ(ier_of(nodes_in(TEST_DATA_DIR "/first_three_meridian_37.txt")), 0);
 }
 
@@ -176,9 +169,7 @@ TEST(GreatCircle, HalfOfOneIsCorrect) {
   for (const int n : {4, 7, 20, 181}) {
     Nodes nodes;
     for (int k = 0; k < n; ++k) nodes.push_back(from_degrees(37, -90 + 180.0 * k / (n - 1)));
-    EXPECT_TRUE(is_as_promised(nodes)) << n;
-    point_sets::shuffle(nodes, 5);
-    EXPECT_TRUE(is_as_promised(nodes)) << n;
+    expect_as_promised_in_any_order(nodes, std::to_string(n), 1);
   }
 }
 

@@ -14,6 +14,7 @@
 #include "point_sets.h"
 #include "support/expect.h"
 #include "support/guarded.h"
+#include "support/names.h"
 #ifdef HAVE_CGAL
 #include "support/cgal_hull.h"
 #endif
@@ -30,10 +31,7 @@ struct Case {
 void PrintTo(const Case& c, std::ostream* out) { *out << c.family << " " << c.n; }
 
 std::string name_of(const ::testing::TestParamInfo<Case>& info) {
-  std::string name = info.param.family + "_" + std::to_string(info.param.n);
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
-  return name;
+  return case_name(info.param.family + "_" + std::to_string(info.param.n));
 }
 
 std::vector<Case> cases(const std::vector<std::size_t>& sizes) {
@@ -171,7 +169,6 @@ TEST_P(AgainstCgal, TrianglesAreTheSameUpToExactTies) {
   const auto rings = rings_of(m);
   ASSERT_TRUE(rings);
   const Hull hull = cgal_hull(nodes);
-  RecordProperty("hidden", static_cast<int>(hull.hidden));
   if (hull.hidden > 0) {  // CGAL has no answer on directions
     EXPECT_EQ(fault(nodes, *rings, exact::On::directions), "");
   } else {
@@ -292,24 +289,18 @@ TEST(Fingerprints, TellSetsOfTrianglesApart) {
 // ---- What is read and what is written ----
 
 void check_memory(const Nodes& nodes, Edge edge) {
+  const Mesh m = guarded_trmesh(nodes, edge);
+  ASSERT_EQ(m.ier, 0);
+  for (std::size_t i = static_cast<std::size_t>(m.lnew) - 1; i < m.list.size(); ++i)
+    ASSERT_TRUE(m.list[i] == untouched && m.lptr[i] == untouched) << "slot " << i + 1;
   const Columns c(nodes);
-  const std::size_t n = nodes.size(), slots = 6 * n - 12;
   Guarded<double> x(c.x, edge), y(c.y, edge), z(c.z, edge);
-  x.make_read_only(), y.make_read_only(), z.make_read_only();
-  Guarded<std::int32_t> list(std::vector<std::int32_t>(slots, untouched), edge),
-      lptr(std::vector<std::int32_t>(slots, untouched), edge),
-      lend(std::vector<std::int32_t>(n, untouched), edge), lnew(1, edge);
-  ASSERT_EQ(pstripack_trmesh(static_cast<std::int32_t>(n), x.data(), y.data(), z.data(), list.data(),
-                             lptr.data(), lend.data(), lnew.data()),
-            0);
-  for (std::size_t i = static_cast<std::size_t>(lnew[0]) - 1; i < slots; ++i) {
-    ASSERT_EQ(list[i], untouched) << "slot " << i + 1;
-    ASSERT_EQ(lptr[i], untouched) << "slot " << i + 1;
-  }
+  Guarded<std::int32_t> list(m.list, edge), lptr(m.lptr, edge), lend(m.lend, edge);
   char message[1] = "";
-  list.make_read_only(), lptr.make_read_only(), lend.make_read_only();
-  EXPECT_EQ(pstripack_validate(static_cast<std::int32_t>(n), x.data(), y.data(), z.data(), list.data(),
-                               lptr.data(), lend.data(), lnew[0], message, 1),
+  for (auto* array : {&x, &y, &z}) array->make_read_only();
+  for (auto* array : {&list, &lptr, &lend}) array->make_read_only();
+  EXPECT_EQ(pstripack_validate(static_cast<std::int32_t>(nodes.size()), x.data(), y.data(), z.data(),
+                               list.data(), lptr.data(), lend.data(), m.lnew, message, 1),
             0);
 }
 

@@ -19,7 +19,7 @@
 #include "support/cases.h"
 #include "support/guarded.h"
 #include "support/kinds.h"
-#include "trmesh/trmesh.h"
+#include "support/plain_lists.h"
 
 using namespace pstripack;
 
@@ -56,19 +56,13 @@ class Arrays {
       for (const double coordinate : {p.x, p.y, p.z}) nodes_.push_back(static_cast<Real>(coordinate));
     }
     put_nodes();
-    std::vector<std::int32_t> list(6 * kNodes - 12), lptr(list.size()), lend(kNodes);
-    std::int32_t lnew = 0;
-    EXPECT_EQ(
-        trmesh({kNodes, {x_.data(), y_.data(), z_.data()}, {list.data(), lptr.data(), lend.data(), &lnew}})
-            .ier,
-        0);
-    right_lnew_ = lnew;
-    right_.assign(list.begin(), list.end());
-    right_.resize(list_.size());
-    right_.insert(right_.end(), lptr.begin(), lptr.end());
-    right_.resize(2 * list_.size());
-    right_.insert(right_.end(), lend.begin(), lend.end());
-    right_.resize(2 * list_.size() + lend_.size());
+    const PlainLists lists = plain_lists(kNodes, x_.data(), y_.data(), z_.data());
+    right_lnew_ = static_cast<Int>(lists.slots + 1);
+    for (const auto& [values, room_of_it] :
+         {std::pair(&lists.list, list_.size()), {&lists.lptr, list_.size()}, {&lists.lend, lend_.size()}}) {
+      right_.insert(right_.end(), values->begin(), values->end());
+      right_.resize(right_.size() + room_of_it - values->size());
+    }
     put_right();
   }
 

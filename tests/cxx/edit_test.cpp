@@ -13,7 +13,7 @@
 #include "point_sets.h"
 #include "stripack/node_edit.h"
 #include "support/kinds.h"
-#include "trmesh/trmesh.h"
+#include "support/plain_lists.h"
 
 using namespace pstripack;
 
@@ -37,18 +37,11 @@ struct Mesh {
   /// The canonical triangulation of the nodes.
   Mesh(const std::vector<Point>& nodes, std::size_t most) : Mesh(most) {
     for (const Point& p : nodes) place(++n, p);
-    const std::size_t slots = 6 * nodes.size() - 12;
-    std::vector<std::int32_t> a(slots), b(slots), c(nodes.size());
-    std::int32_t end = 0;
-    EXPECT_EQ(trmesh({static_cast<std::int32_t>(n),
-                      {x.data(), y.data(), z.data()},
-                      {a.data(), b.data(), c.data(), &end}})
-                  .ier,
-              0);
-    std::copy(a.begin(), a.end(), list.begin());
-    std::copy(b.begin(), b.end(), lptr.begin());
-    std::copy(c.begin(), c.end(), lend.begin());
-    lnew = end;
+    const PlainLists lists = plain_lists(nodes.size(), x.data(), y.data(), z.data());
+    std::copy(lists.list.begin(), lists.list.end(), list.begin());
+    std::copy(lists.lptr.begin(), lists.lptr.end(), lptr.begin());
+    std::copy(lists.lend.begin(), lists.lend.end(), lend.begin());
+    lnew = static_cast<Int>(lists.slots + 1);
   }
 
   void place(Int node, const Point& p) {

@@ -12,7 +12,7 @@
 #include "point_sets.h"
 #include "stripack/arc_edit.h"
 #include "stripack/list_edit.h"
-#include "trmesh/trmesh.h"
+#include "support/plain_lists.h"
 
 using namespace pstripack;
 
@@ -20,17 +20,12 @@ namespace {
 
 /// The exact mesh of the nodes in lists that can be changed.
 struct Mesh {
-  explicit Mesh(const std::vector<Point>& points)
-      : nodes(points), list(6 * points.size() - 12), lptr(list), lend(points.size()) {
+  explicit Mesh(const std::vector<Point>& points) : nodes(points), n(static_cast<int>(points.size())) {
     std::vector<double> x, y, z;
-    for (const Point& p : nodes) {
-      x.push_back(p.x);
-      y.push_back(p.y);
-      z.push_back(p.z);
-    }
-    n = static_cast<int>(x.size());
-    EXPECT_EQ(trmesh({n, {x.data(), y.data(), z.data()}, {list.data(), lptr.data(), lend.data(), &lnew}}).ier,
-              0);
+    for (const Point& p : nodes) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
+    const PlainLists plain = plain_lists(points.size(), x.data(), y.data(), z.data());
+    list = plain.list, lptr = plain.lptr, lend = plain.lend;
+    lnew = static_cast<int>(plain.slots + 1);
   }
 
   EditedLists<int> lists() { return {n, list.data(), lptr.data(), lend.data(), &lnew}; }
@@ -86,8 +81,8 @@ struct Mesh {
   }
 
   std::vector<Point> nodes;
+  int n, lnew;
   std::vector<int> list, lptr, lend;
-  int n = 0, lnew = 0;
 
  private:
   /// The third corner of the triangle left of a->b, 0 if there is none.

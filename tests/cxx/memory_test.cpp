@@ -14,7 +14,7 @@ using pstripack::available_memory, pstripack::memory_limit, pstripack::Block;
 /// Bytes a node that this process has in memory after a call with n nodes; then after its memory is released.
 int print_bytes_after_a_call(std::size_t n) {
   const Nodes nodes = point_sets::make("random", n);
-  Mesh lists = room_for(n);
+  Lists lists = room_for(n);
   std::vector<double> x, y, z;
   for (const auto& p : nodes) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
   const auto bytes = [&] {

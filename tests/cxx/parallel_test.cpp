@@ -28,6 +28,7 @@
 #include "support/cases.h"
 #include "support/judge.h"
 #include "support/lists.h"
+#include "support/names.h"
 #include "support/serial_rings.h"
 #include "support/thread_ranks.h"
 
@@ -120,12 +121,7 @@ TEST_P(Families, OfTwentyThousandNodesGiveTheSerialRings) {
                                 Configuration{6, 1, PartitionKind::stripes, Brings::slices}})
     EXPECT_TRUE(is_serial(set, run(set.nodes, c))) << name_of(c);
 }
-INSTANTIATE_TEST_SUITE_P(All, Families, ::testing::ValuesIn(kFamilies), [](const auto& info) {
-  std::string name = info.param;
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(All, Families, ::testing::ValuesIn(kFamilies), name_of_case);
 
 /// The same for every distribution that the benchmark measures. Nests over more than 100 decades have fewer
 /// nodes, since nearly every test of them takes big integers.
@@ -157,7 +153,7 @@ TEST(Distributions, OfMirrorImagesGiveTheSerialRings) {
 /// Within about this distance of p.
 Point beside(const Point& p, double distance, point_sets::Random& random) {
   const Point q = random.direction();
-  return point_sets::normalized({p.x + distance * q.x, p.y + distance * q.y, p.z + distance * q.z});
+  return point_sets::normalized(plus(p, scaled(distance, q)));
 }
 
 TEST(Nasty, AVoidAsLargeAsAContinent) {
@@ -201,7 +197,7 @@ TEST(Nasty, LengthsThatHideANodeInOnePatchMakeAllUseDirections) {
   Nodes nodes = point_sets::make("cap:1e-4", 3000, 1);
   const double shorter = 1 - 5e-7;  // deep below its neighbours, within what counts as length 1
   Point& p = nodes[1234];
-  p = {p.x * shorter, p.y * shorter, p.z * shorter};
+  p = scaled(shorter, p);
   const Set set(nodes);
   EXPECT_EQ(set.lengths, Lengths::directions);
   EXPECT_TRUE(is_serial(set, run(set.nodes, {4, 2, PartitionKind::bisection, Brings::every_other})));
@@ -219,7 +215,7 @@ TEST(Nasty, DirectionsAreUsedExactlyWhereLengthsHideANode) {
     const double depth = random.uniform(1e-7, 9e-7), distance = std::pow(10, -random.uniform(3, 6));
     for (std::size_t companions = 1 + random.below(4); companions > 0; --companions)
       nodes.push_back(beside(p, distance, random));
-    nodes[k] = {p.x * (1 - depth), p.y * (1 - depth), p.z * (1 - depth)};
+    nodes[k] = scaled(1 - depth, p);
     Nodes others = nodes;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
     const Set without(others);
@@ -261,7 +257,7 @@ TEST(Nasty, LengthsThatHideANodeInALaterRoundMakeAllUseDirections) {
     for (std::size_t some = 1 + random.below(3); some > 0; --some) {
       Point& p = nodes[random.below(nodes.size())];
       const double length = 1 + random.uniform(-9e-7, 9e-7);
-      p = {p.x * length, p.y * length, p.z * length};
+      p = scaled(length, p);
     }
     const Set set(nodes);
     hidden += set.lengths == Lengths::directions;
@@ -305,7 +301,7 @@ TEST(Coincident, SameDirectionOnBothSidesOfABorder) {
   for (int seed = 1; seed <= 20; ++seed) {
     Nodes nodes = point_sets::make("random", 400, static_cast<std::uint64_t>(seed));
     const std::size_t n = nodes.size();
-    for (std::size_t i = 0; i < n; ++i) nodes.push_back({3 * nodes[i].x, 3 * nodes[i].y, 3 * nodes[i].z});
+    for (std::size_t i = 0; i < n; ++i) nodes.push_back(scaled(3, nodes[i]));
     const Set set(nodes);
     const Outcome out = run(nodes, {8, 4, PartitionKind::bisection, Brings::slices});
     for (const auto& stars : out.stars) {
@@ -392,8 +388,7 @@ TEST_F(KeptPatches, NotWhereNodesAreElsewhere) { EXPECT_FALSE(keeps(moved(nodes_
 
 TEST_F(KeptPatches, NotForOtherPredicatesKindsOrNumbersOfPatches) {
   Nodes longer = nodes_;
-  for (std::size_t i = 0; i < longer.size(); i += 2)
-    longer[i] = {3 * longer[i].x, 3 * longer[i].y, 3 * longer[i].z};
+  for (std::size_t i = 0; i < longer.size(); i += 2) longer[i] = scaled(3, longer[i]);
   EXPECT_FALSE(keeps(longer, at_home(longer)));
   EXPECT_TRUE(keeps_soon(longer));
   options_.partition = PartitionKind::stripes;
@@ -558,7 +553,8 @@ TEST(Agreement, TellsFailuresOfAnyCodeFromVotes) {
   expect_agreed(PatchesDoNotPay(), 0);
 }
 
-bool gives_up(const std::string& family, int patches, std::size_t most_questions, ParallelCost& cost) {
+/// The cost of a triangulation of 20,000 nodes by one rank.
+ParallelCost cost_of(const std::string& family, int patches, std::size_t most_questions) {
   const Set set(point_sets::make(family, 20000, 1));
   SingleProcess process;
   const LocalNodes local{set.nodes.data(), set.nodes.size()};
@@ -566,20 +562,18 @@ bool gives_up(const std::string& family, int patches, std::size_t most_questions
   options.patches = patches;
   options.most_questions = most_questions;
   const Point corners[3] = {set.nodes[0], set.nodes[1], set.nodes[2]};
+  ParallelCost cost;
   triangulate<std::int32_t>(local, check_nodes(local.points, local.count), corners, {1, 2, 3}, process,
                             options, &cost);
-  return cost.in_one_patch != 0;
+  return cost;
 }
 
-TEST(GivingUp, WhereThereAreTooManyQuestions) {
-  ParallelCost cost;
-  EXPECT_TRUE(gives_up("ring", 4, 100, cost));
-}
+TEST(GivingUp, WhereThereAreTooManyQuestions) { EXPECT_EQ(cost_of("ring", 4, 100).in_one_patch, 1); }
 
 TEST(GivingUp, BeforeTheTriangulationWherePatchesWouldNotPay) {
   for (const char* family : {"moment:6", "crossing:1e-3", "nest:150"}) {
-    ParallelCost cost;
-    EXPECT_TRUE(gives_up(family, 2, 2500, cost)) << family;
+    const ParallelCost cost = cost_of(family, 2, 2500);
+    EXPECT_EQ(cost.in_one_patch, 1) << family;
     EXPECT_EQ(cost.halo, 0) << family << ": nodes were delivered";
   }
 }
@@ -588,22 +582,16 @@ TEST(GivingUp, NotWhereTheyPay) {
   for (const char* family :
        {"random", "latlon", "earth", "variable:1e6", "hemisphere", "box", "cap:0.0175", "strip:1e-15",
         "comb:1e-9", "ulp-groups:8", "tracks:50", "coast:0.3", "cap:1e-12", "axis-cap:1e-150",
-        "small-circle:1", "hemisphere-rim", "ellipse:1e-9", "two-curves:1e-3"}) {
-    ParallelCost cost;
-    EXPECT_FALSE(gives_up(family, 2, 2500, cost)) << family;
-  }
+        "small-circle:1", "hemisphere-rim", "ellipse:1e-9", "two-curves:1e-3"})
+    EXPECT_EQ(cost_of(family, 2, 2500).in_one_patch, 0) << family;
 }
 
 TEST(GivingUp, NodesThatAreCloseTogetherAreNoReasonToAsk) {
   for (const char* family :
-       {"random", "cap:1e-6", "cap:1e-10", "dense-cap:1e-7", "pairs:1e-10", "ulp-groups:8"}) {
-    ParallelCost cost;
-    EXPECT_FALSE(gives_up(family, 16, 4000, cost)) << family;
-  }
-  for (const char* family : {"random", "cap:1e-6", "axis-cap"}) {
-    ParallelCost cost;
-    EXPECT_FALSE(gives_up(family, 16, 300, cost)) << family;
-  }
+       {"random", "cap:1e-6", "cap:1e-10", "dense-cap:1e-7", "pairs:1e-10", "ulp-groups:8"})
+    EXPECT_EQ(cost_of(family, 16, 4000).in_one_patch, 0) << family;
+  for (const char* family : {"random", "cap:1e-6", "axis-cap"})
+    EXPECT_EQ(cost_of(family, 16, 300).in_one_patch, 0) << family;
 }
 
 // ---- agreement --------------------------------------------------------------------------------------
@@ -663,11 +651,7 @@ TEST(Agreement, FindsNodesThatCoincide) {
 TEST(Halo, IsThinWhereDensityVaries) {
   const std::pair<const char*, int> most[] = {
       {"random", 8500}, {"clusters:1e-7", 8500}, {"falling:14", 40000}, {"axis-cap", 14000}};
-  for (const auto& [family, nodes] : most) {
-    ParallelCost cost;
-    gives_up(family, 16, SIZE_MAX, cost);
-    EXPECT_LT(cost.halo, nodes) << family;
-  }
+  for (const auto& [family, nodes] : most) EXPECT_LT(cost_of(family, 16, SIZE_MAX).halo, nodes) << family;
 }
 
 // ---- the partition ----------------------------------------------------------------------------------
@@ -701,13 +685,17 @@ TEST(Partitions, MarginIsWhatIsWithinReach) {
     }
 }
 
+std::size_t most_of_a_patch(const Partition& partition, const Nodes& nodes) {
+  std::vector<std::size_t> count(static_cast<std::size_t>(partition.patches()));
+  for (const Point& x : nodes) ++count[static_cast<std::size_t>(partition.owner(x))];
+  return *std::max_element(count.begin(), count.end());
+}
+
 TEST(Partitions, BisectionIsBalancedWhateverTheDensity) {
   for (const char* family : {"random", "variable:1e6", "clusters", "dense-cap", "cap"}) {
     const Nodes nodes = point_sets::make(family, 20000, 1);
     const Partition partition(PartitionKind::bisection, 13, nodes, nodes.size());
-    std::vector<std::size_t> count(13);
-    for (const Point& x : nodes) ++count[static_cast<std::size_t>(partition.owner(x))];
-    EXPECT_LE(*std::max_element(count.begin(), count.end()), 20000 / 13 + 5) << family;
+    EXPECT_LE(most_of_a_patch(partition, nodes), 20000 / 13 + 5) << family;
   }
 }
 
@@ -722,10 +710,7 @@ TEST(Partitions, CutsAreMovedToWhereAllNodesAreShared) {
     Nodes places;
     for (const SentNode& r : sample) places.push_back(r.point);
     const auto most = [&](const Cuts& cuts) {
-      const Partition partition(cuts, nodes.size());
-      std::vector<std::size_t> count(kPatches);
-      for (const Point& x : nodes) ++count[static_cast<std::size_t>(partition.owner(x))];
-      return static_cast<double>(*std::max_element(count.begin(), count.end())) * kPatches /
+      return static_cast<double>(most_of_a_patch(Partition(cuts, nodes.size()), nodes)) * kPatches /
              static_cast<double>(nodes.size());
     };
     auto counted = places_to_count(local, nodes.size(), kPatches, Places(Lengths::as_given, 0));
@@ -762,9 +747,7 @@ TEST(Partitions, OfNodesWhoseHeightsHardlyDiffer) {
     }
     for (const PartitionKind kind : {PartitionKind::bisection, PartitionKind::stripes}) {
       const Partition partition(kind, 7, nodes, nodes.size());
-      std::vector<std::size_t> count(7);
-      for (const Point& x : nodes) ++count[static_cast<std::size_t>(partition.owner(x))];
-      EXPECT_LE(*std::max_element(count.begin(), count.end()), 400 / 7 + 3) << height;
+      EXPECT_LE(most_of_a_patch(partition, nodes), 400 / 7 + 3) << height;
     }
   }
 }

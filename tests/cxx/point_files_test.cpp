@@ -9,6 +9,7 @@
 #include "point_sets.h"
 #include "support/data_file.h"
 #include "support/expect.h"
+#include "support/names.h"
 
 namespace {
 
@@ -23,19 +24,10 @@ std::vector<std::string> files() {
 class PointFile : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(PointFile, IsAsPromisedInAnyOrder) {
-  Nodes nodes = nodes_in(TEST_DATA_DIR "/" + GetParam() + ".txt");
-  EXPECT_TRUE(is_as_promised(nodes));
-  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
-    point_sets::shuffle(nodes, seed);
-    EXPECT_TRUE(is_as_promised(nodes)) << "shuffled, seed " << seed;
-  }
+  expect_as_promised_in_any_order(nodes_in(TEST_DATA_DIR "/" + GetParam() + ".txt"), GetParam(), 50);
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, PointFile, ::testing::ValuesIn(files()), [](const auto& info) {
-  std::string name = info.param;
-  std::replace(name.begin(), name.end(), '-', 'm');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Of, PointFile, ::testing::ValuesIn(files()), name_of_case);
 
 TEST(PointFiles, AreThere) { EXPECT_GE(files().size(), 5u); }
 

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "support/names.h"
+
 namespace {
 
 using point_sets::make;
@@ -42,14 +44,8 @@ TEST_P(Family, HasNodesOfItsLengthAndNoneTwice) {
   }
 }
 
-std::string name_of(const ::testing::TestParamInfo<std::string>& info) {
-  std::string name = info.param;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(Of, Family, ::testing::ValuesIn(point_sets::families()), name_of);
-INSTANTIATE_TEST_SUITE_P(Hard, Family, ::testing::ValuesIn(point_sets::hard_families()), name_of);
+INSTANTIATE_TEST_SUITE_P(Of, Family, ::testing::ValuesIn(point_sets::families()), name_of_case);
+INSTANTIATE_TEST_SUITE_P(Hard, Family, ::testing::ValuesIn(point_sets::hard_families()), name_of_case);
 
 TEST(Families, HaveTheirNaturalCounts) {
   EXPECT_EQ(make("icosahedral", 10242).size(), 10242u);
@@ -97,12 +93,8 @@ TEST(Families, UnknownOnesAreRefusedByName) {
     for (const std::string& family : point_sets::families())
       EXPECT_NE(std::string(e.what()).find(family), std::string::npos);
   }
-  EXPECT_THROW(make("random:2", 10), std::invalid_argument);
-  EXPECT_THROW(make("cap:", 10), std::invalid_argument);
-  EXPECT_THROW(make("cap:wide", 10), std::invalid_argument);
-  EXPECT_THROW(make("cap:-1", 10), std::invalid_argument);
-  EXPECT_THROW(make("variable:1", 10), std::invalid_argument);
-  EXPECT_THROW(make("lattice:2", 10), std::invalid_argument);
+  for (const char* bad : {"random:2", "cap:", "cap:wide", "cap:-1", "variable:1", "lattice:2"})
+    EXPECT_THROW(make(bad, 10), std::invalid_argument) << bad;
 }
 
 TEST(Angles, AreExactWhereTheyCanBeAndAccurateElsewhere) {

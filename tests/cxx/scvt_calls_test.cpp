@@ -148,7 +148,7 @@ TEST(Scvt, OptionsArePassedOn) {
   std::vector<Point> start = point_sets::make("random", 300, 2);
   for (std::size_t i = 0; i < start.size(); ++i) {
     const double length = 1 + static_cast<double>(i % 5);
-    start[i] = {length * start[i].x, length * start[i].y, length * start[i].z};
+    start[i] = scaled(length, start[i]);
   }
   options.start = PSTRIPACK_SCVT_GIVEN;
   Generators given(start);
@@ -395,16 +395,12 @@ TEST(Scvt, MessagesFitTheirRoom) {
 // ---- one step
 
 struct Step {
-  explicit Step(const std::vector<Point>& points) : generators(points), lists{} {
-    const std::size_t n = points.size();
-    lists.list.resize(6 * n - 12);
-    lists.lptr.resize(6 * n - 12);
-    lists.lend.resize(n);
+  explicit Step(const std::vector<Point>& points) : generators(points), lists(room_for(points.size())) {
     const Generators& g = generators;
     EXPECT_EQ(pstripack_trmesh(g.count(), g.x.data(), g.y.data(), g.z.data(), lists.list.data(),
                                lists.lptr.data(), lists.lend.data(), &lists.lnew),
               0);
-    for (auto* v : {&xc, &yc, &zc, &mass}) v->assign(n, 7);
+    for (auto* v : {&xc, &yc, &zc, &mass}) v->assign(points.size(), 7);
   }
   std::int32_t run(const pstripack_density* density) {
     return pstripack_scvt_step(generators.count(), generators.x.data(), generators.y.data(),

@@ -21,15 +21,12 @@
 #include "support/data_file.h"
 #include "support/guarded.h"
 #include "support/kinds.h"
+#include "support/plain_lists.h"
 #include "support/reference_predicates.h"
-#include "trmesh/trmesh.h"
 
 using namespace pstripack;
 
 namespace {
-
-/// The order of the slots: as TRMESH leaves them, or any other, as after edits.
-enum class Slots { canonical, shuffled };
 
 template <class Kind>
 struct Mesh {
@@ -49,26 +46,10 @@ struct Mesh {
       y[i] = static_cast<Real>(points[i].y);
       z[i] = static_cast<Real>(points[i].z);
     }
-    std::vector<std::int32_t> a(list.size()), b(list.size()), c(n);
-    std::int32_t end = 0;
-    EXPECT_EQ(trmesh({static_cast<std::int32_t>(n),
-                      {x.data(), y.data(), z.data()},
-                      {a.data(), b.data(), c.data(), &end}})
-                  .ier,
-              0);
-    std::vector<std::size_t> place(static_cast<std::size_t>(end - 1));
-    std::iota(place.begin(), place.end(), std::size_t{0});
-    point_sets::Random random(1);
-    if (slots == Slots::shuffled)
-      for (std::size_t i = place.size(); i > 1; --i) std::swap(place[i - 1], place[random.below(i)]);
-    const auto placed = [&](std::int32_t slot) {
-      return static_cast<Int>(place[static_cast<std::size_t>(slot - 1)] + 1);
-    };
-    for (std::size_t s = 0; s < place.size(); ++s) {
-      list[place[s]] = a[s];
-      lptr[place[s]] = placed(b[s]);
-    }
-    for (std::size_t i = 0; i < n; ++i) lend[i] = placed(c[i]);
+    const PlainLists lists = plain_lists(n, x.data(), y.data(), z.data(), slots);
+    std::copy(lists.list.begin(), lists.list.end(), list.data());
+    std::copy(lists.lptr.begin(), lists.lptr.end(), lptr.data());
+    std::copy(lists.lend.begin(), lists.lend.end(), lend.data());
   }
 
   void make_read_only() {
@@ -285,7 +266,7 @@ TYPED_TEST(NextNearest, TrfindAndNearndAreExact) {
   point_sets::Random lengths(5);
   for (Point& p : long_and_short) {
     const double length = lengths.uniform(0.5, 2);
-    p = {length * p.x, length * p.y, length * p.z};
+    p = scaled(length, p);
   }
   sets.emplace_back("long and short", long_and_short);
   sets.emplace_back("three", std::vector<Point>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
@@ -308,7 +289,7 @@ TYPED_TEST(NextNearest, TrfindAndNearndAreExact) {
     for (Int k = 1; k <= n; ++k) {
       const Vector<Real> a = mesh.nodes()[k], b = mesh.nodes()[k % n + 1];
       const Vector<Real> middle{a.x + b.x, a.y + b.y, a.z + b.z};
-      places.insert(places.end(), {a, {-a.x, -a.y, -a.z}, middle, {-middle.x, -middle.y, -middle.z}});
+      places.insert(places.end(), {a, scaled(-1, a), middle, scaled(-1, middle)});
     }
     for (const Point& p : point_sets::make("random", 10))
       places.push_back({static_cast<Real>(p.x), static_cast<Real>(p.y), static_cast<Real>(p.z)});

@@ -11,7 +11,6 @@
 #include <array>
 #include <map>
 #include <numeric>
-#include <random>
 #include <set>
 #include <utility>
 #include <vector>
@@ -20,52 +19,16 @@
 #include "point_sets.h"
 #include "stripack/voronoi.h"
 #include "support/guarded.h"
-#include "trmesh/trmesh.h"
+#include "support/plain_lists.h"
 
 using namespace pstripack;
 
 namespace {
 
-/// Canonical lists; or others: slots in random order, and each list begins with any neighbour, as after
-/// edits.
-enum class Slots { canonical, shuffled };
-
-struct Plain {
-  std::vector<std::int32_t> list, lptr, lend;
-  std::size_t slots;
-};
-
-Plain plain_lists(const std::vector<Point>& points, Slots order) {
-  const std::size_t n = points.size();
+PlainLists plain_lists(const std::vector<Point>& points, Slots order) {
   std::vector<double> x, y, z;
   for (const Point& p : points) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
-  std::vector<std::int32_t> list(6 * n - 12), lptr(list.size()), lend(n);
-  std::int32_t end = 0;
-  EXPECT_EQ(trmesh({static_cast<std::int32_t>(n),
-                    {x.data(), y.data(), z.data()},
-                    {list.data(), lptr.data(), lend.data(), &end}})
-                .ier,
-            0);
-  const auto slots = static_cast<std::size_t>(end - 1);
-  if (order == Slots::canonical) return {list, lptr, lend, slots};
-  std::vector<std::size_t> place(slots);
-  std::iota(place.begin(), place.end(), std::size_t{0});
-  point_sets::Random random(1);
-  for (std::size_t i = slots; i > 1; --i) std::swap(place[i - 1], place[random.below(i)]);
-  const auto placed = [&](std::int32_t slot) {
-    return static_cast<std::int32_t>(place[static_cast<std::size_t>(slot - 1)] + 1);
-  };
-  Plain other{list, lptr, lend, slots};
-  for (std::size_t s = 0; s < slots; ++s) {
-    other.list[place[s]] = list[s];
-    other.lptr[place[s]] = placed(lptr[s]);
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    const bool boundary = list[static_cast<std::size_t>(lend[i] - 1)] < 0;
-    const auto last = static_cast<std::size_t>(lend[i] - 1);
-    other.lend[i] = placed(boundary || i % 2 == 0 ? lend[i] : lptr[last]);
-  }
-  return other;
+  return plain_lists(points.size(), x.data(), y.data(), z.data(), order);
 }
 
 /// The results of TRLIST and CRLIST by definition.
@@ -74,7 +37,7 @@ struct Expected {
   std::vector<int> listc;  ///< by slot; 0 = no triangle on the left
 };
 
-Expected by_definition(const Plain& lists) {
+Expected by_definition(const PlainLists& lists) {
   std::map<std::pair<int, int>, std::pair<int, int>> left;  // of an arc: triangle and side
   std::map<std::pair<int, int>, std::size_t> slot_of;
   Expected expected;
@@ -117,7 +80,7 @@ Expected by_definition(const Plain& lists) {
 
 template <class Int>
 struct Arrays {
-  explicit Arrays(const Plain& lists)
+  explicit Arrays(const PlainLists& lists)
       : list(converted(lists.list), Edge::end),
         lptr(converted(lists.lptr), Edge::end),
         lend(converted(lists.lend), Edge::end) {
@@ -131,7 +94,7 @@ struct Arrays {
 };
 
 template <class Int>
-void expect_columns(const Plain& lists) {
+void expect_columns(const PlainLists& lists) {
   const Expected expected = by_definition(lists);
   Arrays<Int> arrays(lists);
   for (const int rows : {3, 6, 9}) {
@@ -148,7 +111,7 @@ void expect_columns(const Plain& lists) {
 
 /// The triangles of the set, without those that close the sphere, and their circumcentres.
 template <class Real, class Int>
-void expect_voronoi(const Plain& lists, const std::vector<Point>& points) {
+void expect_voronoi(const PlainLists& lists, const std::vector<Point>& points) {
   const Expected expected = by_definition(lists);
   Arrays<Int> arrays(lists);
   const std::size_t n = points.size();
@@ -223,7 +186,7 @@ TEST(TriangleList, IsAsDefined) {
   for (const auto& set : sets())
     for (const Slots order : {Slots::canonical, Slots::shuffled}) {
       SCOPED_TRACE(set.size());
-      const Plain lists = plain_lists(set, order);
+      const PlainLists lists = plain_lists(set, order);
       expect_columns<std::int32_t>(lists);
       expect_columns<std::int64_t>(lists);
     }
@@ -233,7 +196,7 @@ TEST(TriangleList, NumbersTrianglesOfTheVoronoiDiagram) {
   for (const auto& set : sets())
     for (const Slots order : {Slots::canonical, Slots::shuffled}) {
       SCOPED_TRACE(set.size());
-      const Plain lists = plain_lists(set, order);
+      const PlainLists lists = plain_lists(set, order);
       expect_voronoi<float, std::int32_t>(lists, set);
       expect_voronoi<double, std::int32_t>(lists, set);
       expect_voronoi<double, std::int64_t>(lists, set);
@@ -243,7 +206,7 @@ TEST(TriangleList, NumbersTrianglesOfTheVoronoiDiagram) {
 /// Where the original needs N*N steps, here hours; and the same for any number of threads.
 TEST(TriangleList, OfAHubTakesNoLongerAndIsTheSameOnAnyNumberOfThreads) {
   const std::vector<Point> ring = point_sets::make("ring", 50001);
-  const Plain lists = plain_lists(ring, Slots::canonical);
+  const PlainLists lists = plain_lists(ring, Slots::canonical);
   Arrays<std::int32_t> arrays(lists);
   std::vector<std::int32_t> first;
   for (const int threads : {1, 3}) {  // libomp 14 leaks where teams of two other sizes follow each other
@@ -264,7 +227,7 @@ TEST(CellAreas, NameNodesThatAreTooClose) {
     set.resize(6);
     for (const Point& p : {Point{w, 0, 1}, Point{0, 2 * w, 1}, Point{-2 * w, 0, 1}, Point{0, -2 * w, 1}})
       set.push_back(p);
-    const Plain lists = plain_lists(set, Slots::canonical);
+    const PlainLists lists = plain_lists(set, Slots::canonical);
     Arrays<std::int32_t> arrays(lists);
     const Directions directions(set.data(), set.size());
     std::vector<double> area(set.size());
@@ -286,8 +249,8 @@ TEST(CellAreas, NameNodesThatAreTooClose) {
 /// Also where one cell has nearly all of the sphere, where the corners of some are one point, and where a
 /// cell is the difference of two areas that rounding cannot tell from each other.
 TEST(CellAreas, AddUpToTheSphere) {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> along(-1, 1);
+  point_sets::Random random(5);
+  const auto along = [&] { return random.uniform(-1, 1); };
   const double high = std::sqrt(0.75);
   std::vector<std::vector<Point>> all{
       {{0, 0, 1}, {0.5, 0, high}, {0, 0.5, high}, {-0.5, 0, high}, {0, -0.5, high}}};
@@ -295,7 +258,7 @@ TEST(CellAreas, AddUpToTheSphere) {
     for (const double width : {1.0, 1e-3, 0.0})
       for (const std::size_t n : {3u, 4u, 5u, 6u, 12u, 48u}) {
         std::vector<Point>& set = all.emplace_back();
-        while (set.size() < n) set.push_back({1, size * along(random), size * width * along(random)});
+        while (set.size() < n) set.push_back({1, size * along(), size * width * along()});
         if (width == 0) set[0] = {0, 0, 1};  // all others lie on one great circle
       }
   for (const std::vector<Point>& set : all) {
@@ -338,29 +301,19 @@ void change(Rings& rings, point_sets::Random& random) {
   const auto any_of = [&](std::size_t n) { return static_cast<std::size_t>(random.below(n)); };
   auto &ring = rings[any_of(rings.size())], &other = rings[any_of(rings.size())];
   auto &entry = ring[any_of(ring.size())], &second = ring[any_of(ring.size())];
-  switch (any_of(6)) {
-    case 0:
-      return std::swap(entry, second);
-    case 1:
-      return std::swap(entry, other[any_of(other.size())]);
-    case 2:
-      entry = -entry;
-      return;
-    case 3:
-      std::reverse(ring.begin(), ring.end());
-      return;
-    case 4:
-      std::rotate(ring.begin(), ring.begin() + 1, ring.end());
-      return;
-    case 5: {  // two nodes change their names in all rings
-      const auto a = std::abs(entry), b = std::abs(second);
-      for (auto& r : rings)
-        for (auto& e : r) {
-          const auto name = std::abs(e) == a ? b : std::abs(e) == b ? a : std::abs(e);
-          e = e < 0 ? -name : name;
-        }
+  const std::size_t kind = any_of(6);
+  if (kind == 0) std::swap(entry, second);
+  if (kind == 1) std::swap(entry, other[any_of(other.size())]);
+  if (kind == 2) entry = -entry;
+  if (kind == 3) std::reverse(ring.begin(), ring.end());
+  if (kind == 4) std::rotate(ring.begin(), ring.begin() + 1, ring.end());
+  if (kind < 5) return;
+  const auto a = std::abs(entry), b = std::abs(second);  // two nodes change their names in all rings
+  for (auto& r : rings)
+    for (auto& e : r) {
+      const auto name = std::abs(e) == a ? b : std::abs(e) == b ? a : std::abs(e);
+      e = e < 0 ? -name : name;
     }
-  }
 }
 
 }  // namespace
@@ -371,13 +324,14 @@ TEST(TriangleList, RefusesTheListsWhoseRingsDisagreeAndNoOthers) {
   int accepted = 0, refused = 0;
   for (int i = 0; i < 20000; ++i) {
     const std::size_t n = 4 + random.below(5);
-    const Plain whole = plain_lists(point_sets::make(i % 2 == 0 ? "random" : "cap", n), Slots::canonical);
+    const PlainLists whole =
+        plain_lists(point_sets::make(i % 2 == 0 ? "random" : "cap", n), Slots::canonical);
     Rings rings(n);
     for (std::size_t k = 0, slot = 0; k < n; ++k)
       while (slot < static_cast<std::size_t>(whole.lend[k])) rings[k].push_back(whole.list[slot++]);
     for (std::size_t changes = 1 + random.below(3); changes > 0; --changes) change(rings, random);
 
-    Plain lists = whole;
+    PlainLists lists = whole;
     std::size_t slot = 0;
     for (const auto& ring : rings)
       for (const auto entry : ring) lists.list[slot++] = entry;

@@ -35,8 +35,6 @@ using namespace pstripack;
 using point_sets::make;
 using point_sets::Random;
 
-constexpr std::int32_t untouched = -987654321;
-
 struct Result : Lists {
   std::int32_t ier = 0;
   bool is_warm = false;
@@ -47,11 +45,7 @@ struct Result : Lists {
 template <class Real = double>
 Result call(const Nodes& nodes) {
   const Columns<Real> c(nodes);
-  Result r;
-  r.list.assign(6 * nodes.size() - 12, untouched);
-  r.lptr = r.list;
-  r.lend.assign(nodes.size(), untouched);
-  r.lnew = untouched;
+  Result r{room_for(nodes.size())};
   CallWay way;
   const TrmeshResult result = trmesh({static_cast<std::int32_t>(nodes.size()),
                                       {c.x.data(), c.y.data(), c.z.data()},
@@ -179,11 +173,11 @@ TEST(WarmStart, ReturnsTheCodesOfColdCalls) {
   bad[777] = {0, 0, 0};
   EXPECT_EQ(after_warm_calls(bad), -5);
   bad = good;
-  bad[2] = {-bad[1].x, -bad[1].y, -bad[1].z};
+  bad[2] = scaled(-1, bad[1]);
   EXPECT_EQ(after_warm_calls(bad), -2);
   for (const double length : {1.0, 2.0}) {
     bad = good;
-    bad[1700] = {length * good[40].x, length * good[40].y, length * good[40].z};
+    bad[1700] = scaled(length, good[40]);
     EXPECT_EQ(after_warm_calls(bad), 41);
   }
 }
@@ -222,19 +216,18 @@ TEST(WarmStart, IsInvisibleWhereLengthsHideNodes) {
   Nodes first = nodes_of("random", kN);
   for (std::size_t k = 0; k < 50; ++k) {
     const Point &p = first[k], d = random.direction();
-    first[kN - 1 - k] = point_sets::normalized({p.x + 1e-5 * d.x, p.y + 1e-5 * d.y, p.z + 1e-5 * d.z});
+    first[kN - 1 - k] = point_sets::normalized(plus(p, scaled(1e-5, d)));
   }
   const Tally tally = compare(sets_of(first, 12, [&](Nodes& p, int step) {
     if (step == 6) {
       for (std::size_t k = 0; k < 50; ++k) {
         Point& q = p[k];
-        q = {q.x * (1 - 9e-7), q.y * (1 - 9e-7), q.z * (1 - 9e-7)};
+        q = scaled(1 - 9e-7, q);
       }
     } else {
       move_all(p, 1e-9, random);
       if (step > 6)
-        for (std::size_t k = 0; k < 50; ++k)
-          p[k] = {p[k].x * (1 - 9e-7), p[k].y * (1 - 9e-7), p[k].z * (1 - 9e-7)};
+        for (std::size_t k = 0; k < 50; ++k) p[k] = scaled(1 - 9e-7, p[k]);
     }
   }));
   EXPECT_GE(tally.warm, 4);
@@ -248,20 +241,15 @@ TEST(WarmStart, IsInvisibleWhereNodesAreRenumbered) {
     const std::size_t a = 3 + random.below(kN - 103);
     const auto at = p.begin() + static_cast<std::ptrdiff_t>(a);
     if (step % 10 < 9) return move_all(p, 1e-3 * spacing(kN), random);
-    switch (step / 10 % 5) {
-      case 0:
-        return std::swap(*at, p[3 + random.below(kN - 3)]);
-      case 1:  // its nearest
-        return std::swap(*at, *std::min_element(at + 1, p.end(), [at](const Point& c, const Point& d) {
-          return dot(c, *at) > dot(d, *at);
-        }));
-      case 2:
-        return std::reverse(at, at + 100);
-      case 3:
-        return std::iter_swap(at, at + 1);
-      case 4:
-        return point_sets::shuffle(p, 5);
-    }
+    const int kind = step / 10 % 5;
+    if (kind == 0) std::swap(*at, p[3 + random.below(kN - 3)]);
+    if (kind == 1)  // its nearest
+      std::swap(*at, *std::min_element(at + 1, p.end(), [at](const Point& c, const Point& d) {
+        return dot(c, *at) > dot(d, *at);
+      }));
+    if (kind == 2) std::reverse(at, at + 100);
+    if (kind == 3) std::iter_swap(at, at + 1);
+    if (kind == 4) point_sets::shuffle(p, 5);
   }));
   EXPECT_GT(tally.warm, 10);
   EXPECT_GT(tally.cold, 10);
@@ -416,13 +404,13 @@ TEST(WarmStart, RecognisesItsNodesAfterOthers) {
   is_kept(nodes);
   EXPECT_TRUE(is_recognised(nodes));
   Nodes others = nodes;
-  for (Point& p : others) p = {2 * p.x, 2 * p.y, 2 * p.z};
+  for (Point& p : others) p = scaled(2, p);
   EXPECT_FALSE(is_recognised(others));
   // Every 64th star is looked at: one jump turns its triangles over, too few to count as arcs.
   int seen = 0;
   for (std::size_t k = 0; k < 64; ++k) {
     others = nodes;
-    others[k] = {-nodes[k].x, -nodes[k].y, -nodes[k].z};
+    others[k] = scaled(-1, nodes[k]);
     seen += !is_recognised(others);
   }
   EXPECT_GE(seen, 1);
@@ -436,7 +424,7 @@ TEST(WarmStart, RecognisesItsNodesAfterOthers) {
   others = lattice;
   for (std::size_t k = 0; k < others.size(); k += 3) {
     const Point &p = lattice[k], d = random.direction();
-    others[k] = point_sets::normalized({p.x + 1e-6 * d.x, p.y + 1e-6 * d.y, p.z + 1e-6 * d.z});
+    others[k] = point_sets::normalized(plus(p, scaled(1e-6, d)));
   }
   EXPECT_FALSE(is_recognised(others));
   EXPECT_TRUE(call(lattice).is_warm);
@@ -450,7 +438,7 @@ TEST(WarmStart, IsInvisibleWhereOneLengthIsNotOne) {
     for (const int calls : {2, 3}) {
       Nodes others = nodes;
       Point& p = others[k];
-      p = {p.x * 1.0005, p.y * 1.0005, p.z * 1.0005};
+      p = scaled(1.0005, p);
       free_cached_things();
       for (int i = 0; i < calls; ++i) call(nodes);
       const Result r = call(others);
@@ -469,8 +457,7 @@ TEST(WarmStart, IsInvisibleAroundHubs) {
     for (int i = 0; i < 60; ++i) {
       const double c = 1e-3 * std::cos(0.1047 * i), s = 1e-3 * std::sin(0.1047 * i);
       while (around % 3 == 0) ++around;
-      nodes[around++] = point_sets::normalized(
-          {hub.x + c * u.x + s * v.x, hub.y + c * u.y + s * v.y, hub.z + c * u.z + s * v.z});
+      nodes[around++] = point_sets::normalized(plus(plus(hub, scaled(c, u)), scaled(s, v)));
     }
   };
   for (const std::size_t k : {33, 99, 165, 231, 297, 363, 429}) put_around(nodes[k]);
@@ -511,14 +498,14 @@ TEST(WarmStart, LooksAtTheLastCallOnly) {
   free_cached_things();
   int i = 0;
   for (; i <= 8; ++i) {  // meshes that do not fit: the next is kept after eight calls
-    nodes[0] = {-nodes[0].x, -nodes[0].y, -nodes[0].z};
+    nodes[0] = scaled(-1, nodes[0]);
     EXPECT_FALSE(call(nodes).is_warm);
   }
   for (; i <= 16; ++i) {
     const double by = 0.03 * spacing(kN);
     for (std::size_t k = 0; k < kN; ++k) {
       Point& p = nodes[k];
-      p = point_sets::normalized({p.x + by * drift[k].x, p.y + by * drift[k].y, p.z + by * drift[k].z});
+      p = point_sets::normalized(plus(p, scaled(by, drift[k])));
     }
     EXPECT_EQ(call(nodes).is_warm, i == 16) << i;
   }
@@ -577,7 +564,7 @@ TEST(WarmStart, ForgetsTheMeshesOfOthersInTurn) {
 TEST(WarmStart, WaitsOneCallMoreAfterAMeshThatDidNotFit) {
   const Nodes here = nodes_of("random", kN);
   Nodes there = here;
-  there[0] = {-here[0].x, -here[0].y, -here[0].z};
+  there[0] = scaled(-1, here[0]);
   free_cached_things();
   for (int i = 0; i < 3; ++i) EXPECT_EQ(call(here).is_warm, i == 2);
   for (int round = 0; round < 3; ++round)
@@ -591,7 +578,7 @@ TEST(WarmStart, IsTriedAgainAfterAtMost64Calls) {
   const Nodes nodes = nodes_of("random", 1000);
   const Result lists = cold_call(nodes);
   Nodes others = nodes;
-  others[0] = {2 * nodes[0].x, 2 * nodes[0].y, 2 * nodes[0].z};
+  others[0] = scaled(2, nodes[0]);
   const Columns<> c(others);
   free_cached_things();
   std::vector<int> tries;

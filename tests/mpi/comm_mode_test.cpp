@@ -76,18 +76,8 @@ TEST(CommMode, GivesTheSameBytesInAnyFloatingPointEnvironmentAndLeavesItAsItWas)
 
 TEST(CommMode, TouchesNothingOutsideTheArrays) {
   const Nodes nodes = point_sets::make("hemisphere", 1000);
-  const Columns c(nodes);
-  const auto n = static_cast<std::int32_t>(nodes.size());
   const CommMode mode;
-  for (const Edge edge : {Edge::begin, Edge::end}) {
-    Guarded<double> x(c.x, edge), y(c.y, edge), z(c.z, edge);
-    x.make_read_only(), y.make_read_only(), z.make_read_only();
-    Guarded<std::int32_t> list(6 * nodes.size() - 12, edge), lptr(list.size(), edge),
-        lend(nodes.size(), edge), lnew(1, edge);
-    EXPECT_EQ(
-        pstripack_trmesh(n, x.data(), y.data(), z.data(), list.data(), lptr.data(), lend.data(), lnew.data()),
-        0);
-  }
+  for (const Edge edge : {Edge::begin, Edge::end}) EXPECT_EQ(guarded_trmesh(nodes, edge).ier, 0);
 }
 
 TEST(CommMode, IsCollectiveOnlyWhileItIsSet) {

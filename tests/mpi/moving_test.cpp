@@ -322,7 +322,7 @@ TEST(Moving, CallsBeginAnewWhereTheStarsDoNotFit) {
   Starts warm;
   for (int step = 0; step < 6; ++step) {
     Nodes other = nodes;
-    other[7] = {-nodes[7].x, -nodes[7].y, -nodes[7].z};
+    other[7] = scaled(-1, nodes[7]);
     if (step % 2 == 1) other[7] = nodes[7];
     warm.push_back(mesh.call(other, part));
   }
@@ -432,10 +432,7 @@ class Caller {
   bool call(const Nodes& nodes, int ier = 0, long failing = 0, bool for_good = false) {
     const std::size_t n = nodes.size();
     const Columns<double> c(nodes);
-    Lists lists;
-    lists.list.assign(6 * n - 12, 0);
-    lists.lptr = lists.list;
-    lists.lend.assign(n, 0);
+    Lists lists = room_for(n);
     GroupCost cost;
     try {
       const FailingAllocation memory(ranks_.rank() == ranks_.size() - 1 ? failing : 0, for_good);
@@ -451,7 +448,8 @@ class Caller {
       has_failed = true;
       EXPECT_EQ(failure.code, -6);
       EXPECT_GT(failing, 0);
-      EXPECT_TRUE(std::all_of(lists.list.begin(), lists.list.end(), [](std::int32_t e) { return e == 0; }));
+      EXPECT_TRUE(
+          std::all_of(lists.list.begin(), lists.list.end(), [](std::int32_t e) { return e == untouched; }));
       return false;
     }
     if (const auto right = made_anew(nodes)) {

@@ -23,16 +23,9 @@ using pstripack::MpiCommunicator;
 using pstripack::TrmeshCall;
 using pstripack::TrmeshResult;
 
-constexpr std::int32_t untouched = -987654321;
-
 /// Arrays of exactly the sizes that TRMESH asks for.
 struct Outcome : Lists {
-  explicit Outcome(std::size_t n) {
-    list.assign(n < 3 ? 1 : 6 * n - 12, untouched);
-    lptr = list;
-    lend.assign(n, untouched);
-    lnew = untouched;
-  }
+  explicit Outcome(std::size_t n) : Lists(room_for(n)) {}
   TrmeshResult result{0};
 };
 bool operator==(const Outcome& a, const Outcome& b) {

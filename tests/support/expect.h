@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "judge.h"
+#include "point_sets.h"
 #include "trmesh.h"
 
 /// True if nothing of the mesh was written.
@@ -67,4 +68,13 @@ inline ::testing::AssertionResult is_as_promised(const Nodes& nodes, const Mesh&
 /// The same of what the library returns for them.
 inline ::testing::AssertionResult is_as_promised(const Nodes& nodes) {
   return is_as_promised(nodes, trmesh(nodes));
+}
+
+/// In the given and in other random orders.
+inline void expect_as_promised_in_any_order(Nodes nodes, const std::string& what, std::uint64_t others = 2) {
+  EXPECT_TRUE(is_as_promised(nodes)) << what;
+  for (std::uint64_t seed = 1; seed <= others; ++seed) {
+    point_sets::shuffle(nodes, seed);
+    EXPECT_TRUE(is_as_promised(nodes)) << what << ", shuffled, seed " << seed;
+  }
 }

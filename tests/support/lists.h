@@ -22,6 +22,14 @@ inline bool operator==(const Lists& a, const Lists& b) {
   return a.list == b.list && a.lptr == b.lptr && a.lend == b.lend && a.lnew == b.lnew;
 }
 
+constexpr std::int32_t untouched = -987654321;  // value of all entries before a call
+
+/// Arrays of exactly 6n-12 and n entries, not yet written.
+inline Lists room_for(std::size_t n) {
+  const std::vector<std::int32_t> slots(n < 3 ? 1 : 6 * n - 12, untouched);
+  return {slots, slots, std::vector<std::int32_t>(n, untouched), untouched};
+}
+
 /// The neighbours of each node (from 0), counterclockwise; of an interior node from its smallest neighbour
 /// on, of a boundary node from the first boundary neighbour to the last.
 struct Rings {
