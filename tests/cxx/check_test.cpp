@@ -28,10 +28,6 @@ namespace {
 
 using pstripack::BlockHeader;
 
-std::size_t lines(const std::string& text) {
-  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
-}
-
 const std::string kToFile = "PSTRIPACK_CHECK=calls.rec";
 
 struct Block {
@@ -80,8 +76,7 @@ std::string output_of(const Mesh& m, std::size_t nodes) {
 TEST(Check, IsOffUnlessAskedFor) {
   const Folder folder;
   for (const char* environment : {"env -u PSTRIPACK_CHECK", "PSTRIPACK_CHECK="}) {
-    const Outcome outcome = run_this_program(folder, environment, "calls random 1000 2");
-    EXPECT_EQ(outcome.code, 0);
+    const Outcome outcome = run_self(folder, environment, "calls random 1000 2");
     EXPECT_EQ(outcome.out + outcome.err, "") << environment;
     EXPECT_EQ(std::system(("test \"$(ls " + folder.path() + ")\" = \"$(printf 'err\\nout')\"").c_str()), 0);
   }
@@ -89,8 +84,7 @@ TEST(Check, IsOffUnlessAskedFor) {
 
 TEST(Check, RecordsTheBytesOfInputAndOutput) {
   const Folder folder;
-  const Outcome outcome = run_this_program(folder, kToFile, "calls cap 500 2");
-  EXPECT_EQ(outcome.code, 0);
+  const Outcome outcome = run_self(folder, kToFile, "calls cap 500 2");
   EXPECT_EQ(outcome.out + outcome.err, "");
   const Nodes nodes = point_sets::make("cap", 500);
   const Mesh mesh = trmesh(nodes);
@@ -118,7 +112,7 @@ TEST(Check, RecordsTheBytesOfInputAndOutput) {
 
 TEST(Check, RecordsEveryCode) {
   const Folder folder;
-  run_this_program(folder, kToFile, "codes");
+  run_self(folder, kToFile, "codes");
   const auto all = blocks(folder);
   ASSERT_EQ(all.size(), 10u);
   const struct {
@@ -140,7 +134,7 @@ TEST(Check, RecordsEveryCode) {
 
 TEST(Check, RecordsSinglePrecisionAsItIs) {
   const Folder folder;
-  run_this_program(folder, kToFile, "single");
+  run_self(folder, kToFile, "single");
   const auto all = blocks(folder);
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].header.real_bytes, 4u);
@@ -152,8 +146,7 @@ TEST(Check, RecordsSinglePrecisionAsItIs) {
 TEST(Check, IsAppendedToTheFileOfTheFolderWhereTheProgramBegan) {
   const Folder folder;
   for (int i = 0; i < 2; ++i) {
-    const Outcome outcome = run_this_program(folder, kToFile, "elsewhere random 1000 1");
-    EXPECT_EQ(outcome.code, 0);
+    const Outcome outcome = run_self(folder, kToFile, "elsewhere random 1000 1");
     EXPECT_EQ(outcome.out + outcome.err, "");
   }
   const auto all = blocks(folder);
@@ -179,14 +172,14 @@ TEST(Check, KeepsTheBlocksOfThreadsAndProcessesWhole) {
                                                             {"processes random 3000 4", 4u, 5u},
                                                             {"fork random 500 1", 2u, 2u}}) {
     const Folder folder;
-    EXPECT_EQ(run_this_program(folder, kToFile, arguments).code, 0);
+    run_self(folder, kToFile, arguments);
     expect_calls(blocks(folder), processes, calls_of_each);
   }
 }
 
 TEST(Check, HasTheInputOfACallThatCrashes) {
   const Folder folder;
-  EXPECT_NE(run_this_program(folder, kToFile, "crash random 500 1").code, 0);
+  run_self(folder, kToFile, "crash random 500 1", false);
   const auto all = blocks(folder);
   ASSERT_EQ(all.size(), 3u);
   EXPECT_EQ(all[2].header.kind, 1u);
@@ -198,12 +191,9 @@ TEST(Check, WarnsOnceOfAFileThatCannotBeWrittenAndGoesOn) {
   ASSERT_EQ(std::system(("mkfifo " + folder.path() + "/pipe " + folder.path() + "/read").c_str()), 0);
   const int reader = open((folder.path() + "/read").c_str(), O_RDONLY | O_NONBLOCK);
   for (const std::string path : {"/proc/no/such/folder", "/tmp", "/dev/full", "pipe", "read"}) {
-    const Outcome outcome = run_this_program(folder, "PSTRIPACK_CHECK=" + path, "calls random 100 3");
-    EXPECT_EQ(outcome.code, 0);
+    const Outcome outcome = run_self(folder, "PSTRIPACK_CHECK=" + path, "calls random 100 3");
     EXPECT_EQ(outcome.out, "");
-    EXPECT_EQ(lines(outcome.err), 1u) << outcome.err;
-    EXPECT_EQ(outcome.err.find("pstripack: PSTRIPACK_CHECK: "), 0u) << outcome.err;
-    EXPECT_NE(outcome.err.find(path + ": "), std::string::npos) << outcome.err;
+    expect_line(outcome.err, "pstripack: PSTRIPACK_CHECK: ", path + ": ");
   }
   close(reader);
 }
@@ -211,11 +201,8 @@ TEST(Check, WarnsOnceOfAFileThatCannotBeWrittenAndGoesOn) {
 TEST(Check, LeavesNoHalfBlockWhereTheDiskIsFull) {
   const Folder folder;
   // 80 times 512 bytes, not more; a call of 500 nodes takes 38,112.
-  const Outcome outcome =
-      run_this_program(folder, "trap '' XFSZ; ulimit -f 80; " + kToFile, "calls random 500 5");
-  EXPECT_EQ(outcome.code, 0);
-  EXPECT_EQ(lines(outcome.err), 1u) << outcome.err;
-  EXPECT_NE(outcome.err.find("calls.rec: File too large"), std::string::npos) << outcome.err;
+  const Outcome outcome = run_self(folder, "trap '' XFSZ; ulimit -f 80; " + kToFile, "calls random 500 5");
+  expect_line(outcome.err, "pstripack: ", "calls.rec: File too large");
   EXPECT_EQ(blocks(folder).size(), 2u);
 }
 
@@ -229,11 +216,9 @@ TEST(Check, BesideTheModelMayFailToStart) {
             "'speed=3': expected abi=, timeout=, show= or log="},
            {program + "PSTRIPACK_CHECK=lib:a.so,timeout=soon", "'timeout=soon': expected seconds"},
            {"PSTRIPACK_COMPARE=/bin/false PSTRIPACK_CHECK=lib:", "stripack-compare has ended"}}) {
-    const Outcome outcome = run_this_program(folder, environment, "calls random 5000 3");
-    EXPECT_EQ(outcome.code, 0);
+    const Outcome outcome = run_self(folder, environment, "calls random 5000 3");
     EXPECT_EQ(outcome.out, "");
-    EXPECT_EQ(lines(outcome.err), 1u) << outcome.err;
-    EXPECT_NE(outcome.err.find(message), std::string::npos) << outcome.err;
+    expect_line(outcome.err, "pstripack: ", message);
   }
 }
 
@@ -248,11 +233,10 @@ TEST(Check, BesideTheModelGetsTheStreamAndItsSettingsButNoVariablesOfTheJob) {
   const Folder folder;
   write_program(folder,
                 "echo \"$@\" > words; env > variables; ls /proc/self/fd > files; cat > calls.rec; echo log");
-  const Outcome outcome = run_this_program(folder,
-                                           "OMPI_COMM_WORLD_RANK=0 PMIX_RANK=0 PSTRIPACK_COMPARE=./program "
-                                           "PSTRIPACK_CHECK=lib:old.so,abi=8arg,timeout=3,show=7",
-                                           "calls random 500 2");
-  EXPECT_EQ(outcome.code, 0);
+  const Outcome outcome = run_self(folder,
+                                   "OMPI_COMM_WORLD_RANK=0 PMIX_RANK=0 PSTRIPACK_COMPARE=./program "
+                                   "PSTRIPACK_CHECK=lib:old.so,abi=8arg,timeout=3,show=7",
+                                   "calls random 500 2");
   EXPECT_EQ(outcome.out, "");
   EXPECT_EQ(outcome.err, "log\n") << "its stdout is the model's stderr";
   EXPECT_EQ(contents(folder.path() + "/words"),
@@ -260,26 +244,22 @@ TEST(Check, BesideTheModelGetsTheStreamAndItsSettingsButNoVariablesOfTheJob) {
   const std::string variables = contents(folder.path() + "/variables");
   for (const char* prefix : {"OMPI_", "PMIX_", "PSTRIPACK_"})
     EXPECT_EQ(variables.find(prefix), std::string::npos) << prefix;
-  EXPECT_EQ(lines(contents(folder.path() + "/files")), 4u) << "0, 1, 2 and that of ls";
+  EXPECT_EQ(lines(contents(folder.path() + "/files")).size(), 4u) << "0, 1, 2 and that of ls";
   expect_calls(blocks(folder), 1, 2);
 }
 
 TEST(Check, BesideTheModelDoesNotHoldItUpForEver) {
   const Folder folder;
   write_program(folder, "exec > /dev/null 2>&1; cat > /dev/null; sleep 30");
-  const Outcome outcome = run_this_program(
-      folder, "PSTRIPACK_COMPARE=./program PSTRIPACK_CHECK=lib:,timeout=0.1", "calls random 500 1");
-  EXPECT_EQ(outcome.code, 0);
-  EXPECT_EQ(lines(outcome.err), 1u);
-  EXPECT_NE(outcome.err.find("the check of its last calls goes on"), std::string::npos) << outcome.err;
+  const Outcome outcome =
+      run_self(folder, "PSTRIPACK_COMPARE=./program PSTRIPACK_CHECK=lib:,timeout=0.1", "calls random 500 1");
+  expect_line(outcome.err, "pstripack: ", "the check of its last calls goes on");
 }
 
 TEST(Check, BesideAForkedChildIsAProgramOfItsOwn) {
   const Folder folder;
   write_program(folder, "cat > stream.$$; cat stream.$$ >> calls.rec");
-  EXPECT_EQ(
-      run_this_program(folder, "PSTRIPACK_COMPARE=./program PSTRIPACK_CHECK=lib:", "fork random 500 1").code,
-      0);
+  run_self(folder, "PSTRIPACK_COMPARE=./program PSTRIPACK_CHECK=lib:", "fork random 500 1");
   expect_calls(blocks(folder), 2, 2);
   EXPECT_EQ(std::system(("test $(ls " + folder.path() + "/stream.* | wc -l) -eq 2").c_str()), 0);
 }
@@ -288,11 +268,10 @@ TEST(Check, WritesToNoFileThatTheModelHasOpenedInPlaceOfTheSocket) {
   const Folder folder;
   write_program(folder, "cat > part; mv part calls.rec");
   const Outcome outcome =
-      run_this_program(folder, "PSTRIPACK_COMPARE=./program PSTRIPACK_CHECK=lib:", "closes random 500 1");
+      run_self(folder, "PSTRIPACK_COMPARE=./program PSTRIPACK_CHECK=lib:", "closes random 500 1");
   // The model has closed the socket, so it cannot wait for the program beside it.
   const std::string is_there = "test -e " + folder.path() + "/calls.rec";
   for (int wait = 0; wait < 1000 && std::system(is_there.c_str()) != 0; ++wait) usleep(10000);
-  EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(contents(folder.path() + "/own"), "");
   expect_calls(blocks(folder), 1, 1);
 }
@@ -312,23 +291,17 @@ int run_as(const std::string& action, const std::string& family, std::size_t n, 
     return pstripack_trmesh_r4(6, x, y, z, list, lptr, lend, &lnew);
   }
   const Nodes nodes = point_sets::make(family, n);
-  const auto call = [&nodes] { call_trmesh(nodes); };
-  if (action == "threads") {
-    call_on_threads(count, call);
-    return 0;
-  }
   if (action == "processes") {
     for (int i = 0; i < count; ++i) {
       if (fork() != 0) continue;
-      for (int k = 0; k < 5; ++k) call();
+      for (int k = 0; k < 5; ++k) call_trmesh(nodes);
       _exit(0);  // OpenMP's end in a forked child is not what is tested: libarcher crashes in it
     }
     int failed = 0;
     for (int status; wait(&status) > 0;) failed += status != 0;
     return failed;
   }
-  if (action == "elsewhere" && (chdir("/") != 0 || unsetenv("PSTRIPACK_CHECK") != 0)) return 1;
-  for (int i = 0; i < count; ++i) call();
+  if (const int code = make_calls(action, nodes, count, "PSTRIPACK_CHECK"); code != 0) return code;
   if (action == "crash") {
     const Columns c(nodes);
     return pstripack_trmesh(static_cast<std::int32_t>(n), c.x.data(), c.y.data(), c.z.data(), nullptr,
@@ -338,10 +311,10 @@ int run_as(const std::string& action, const std::string& family, std::size_t n, 
     for (int file = 3; file < 100; ++file) close(file);
     for (int i = 0; i < 20; ++i)
       if (std::fopen("own", "a") == nullptr) return 1;
-    call();
+    call_trmesh(nodes);
     return 0;
   }
-  return action == "fork" ? call_around_a_fork(call) : 0;
+  return 0;
 }
 
 }  // namespace

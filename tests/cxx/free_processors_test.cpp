@@ -87,6 +87,10 @@ class FreeProcessorsOfFiles : public ::testing::Test {
   }
   std::string root() const { return folder_.path(); }
   int quota() const { return quota_of_control_groups(root().c_str()); }
+  int quota_with(const std::string& path, const std::string& text) const {
+    write(path, text);
+    return quota();
+  }
 
  private:
   const Folder folder_;
@@ -94,44 +98,35 @@ class FreeProcessorsOfFiles : public ::testing::Test {
 
 TEST_F(FreeProcessorsOfFiles, QuotaIsTheLeastOfAllGroups) {
   EXPECT_EQ(quota(), 0);
-  write("/proc/self/cgroup", "0::/system.slice/job.scope\n");
-  EXPECT_EQ(quota(), 0);
-  write("/sys/fs/cgroup/system.slice/job.scope/cpu.max", "max 100000\n");
-  EXPECT_EQ(quota(), 0);
-  write("/sys/fs/cgroup/system.slice/cpu.max", "450000 100000\n");
-  EXPECT_EQ(quota(), 4);
-  write("/sys/fs/cgroup/system.slice/job.scope/cpu.max", "200000 100000\n");
-  EXPECT_EQ(quota(), 2);
-  write("/sys/fs/cgroup/cpu.max", "50000 100000\n");  // a container's own, which is its root
-  EXPECT_EQ(quota(), 1);
+  EXPECT_EQ(quota_with("/proc/self/cgroup", "0::/system.slice/job.scope\n"), 0);
+  EXPECT_EQ(quota_with("/sys/fs/cgroup/system.slice/job.scope/cpu.max", "max 100000\n"), 0);
+  EXPECT_EQ(quota_with("/sys/fs/cgroup/system.slice/cpu.max", "450000 100000\n"), 4);
+  EXPECT_EQ(quota_with("/sys/fs/cgroup/system.slice/job.scope/cpu.max", "200000 100000\n"), 2);
+  // A container's own, which is its root.
+  EXPECT_EQ(quota_with("/sys/fs/cgroup/cpu.max", "50000 100000\n"), 1);
 }
 
 TEST_F(FreeProcessorsOfFiles, QuotaOfVersionOne) {
-  write("/proc/self/cgroup", "5:cpuset:/a\n4:cpu,cpuacct:/docker/1a\n1:name=systemd:/x\n0::/\n");
-  EXPECT_EQ(quota(), 0);
+  EXPECT_EQ(
+      quota_with("/proc/self/cgroup", "5:cpuset:/a\n4:cpu,cpuacct:/docker/1a\n1:name=systemd:/x\n0::/\n"), 0);
   write("/sys/fs/cgroup/cpu/cpu.cfs_quota_us", "-1\n");
-  write("/sys/fs/cgroup/cpu/cpu.cfs_period_us", "100000\n");
-  EXPECT_EQ(quota(), 0);
+  EXPECT_EQ(quota_with("/sys/fs/cgroup/cpu/cpu.cfs_period_us", "100000\n"), 0);
   write("/sys/fs/cgroup/cpu/docker/1a/cpu.cfs_quota_us", "300000\n");
-  write("/sys/fs/cgroup/cpu/docker/1a/cpu.cfs_period_us", "100000\n");
-  EXPECT_EQ(quota(), 3);
+  EXPECT_EQ(quota_with("/sys/fs/cgroup/cpu/docker/1a/cpu.cfs_period_us", "100000\n"), 3);
 }
 
 TEST_F(FreeProcessorsOfFiles, OthersAreAllRunningThreadsButOurs) {
-  const auto others = [&] { return threads_of_others(root().c_str()); };
-  EXPECT_EQ(others(), 0);  // no such files
-  write("/proc/loadavg", "0.20 0.18 0.12 7/80 11206\n");
-  EXPECT_EQ(others(), 6);
-  write("/proc/self/task/10/stat", "10 (a) R 1 1\n");
-  EXPECT_EQ(others(), 6);
-  write("/proc/self/task/11/stat", "11 (named ) R) S 1 1\n");  // sleeps
-  EXPECT_EQ(others(), 6);
-  write("/proc/self/task/12/stat", "12 (spins) R 1 1\n");
-  EXPECT_EQ(others(), 5);
-  write("/proc/loadavg", "0.20 0.18 0.12 1/80 11206\n");
-  EXPECT_EQ(others(), 0);
-  write("/proc/loadavg", "nothing\n");
-  EXPECT_EQ(others(), 0);
+  const auto others_with = [&](const std::string& path, const std::string& text) {
+    write(path, text);
+    return threads_of_others(root().c_str());
+  };
+  EXPECT_EQ(threads_of_others(root().c_str()), 0);  // no such files
+  EXPECT_EQ(others_with("/proc/loadavg", "0.20 0.18 0.12 7/80 11206\n"), 6);
+  EXPECT_EQ(others_with("/proc/self/task/10/stat", "10 (a) R 1 1\n"), 6);
+  EXPECT_EQ(others_with("/proc/self/task/11/stat", "11 (named ) R) S 1 1\n"), 6);  // sleeps
+  EXPECT_EQ(others_with("/proc/self/task/12/stat", "12 (spins) R 1 1\n"), 5);
+  EXPECT_EQ(others_with("/proc/loadavg", "0.20 0.18 0.12 1/80 11206\n"), 0);
+  EXPECT_EQ(others_with("/proc/loadavg", "nothing\n"), 0);
 }
 
 constexpr std::size_t kMany = 100000000;
@@ -155,7 +150,7 @@ TEST(ThreadCount, ObeysWhoAsks) {
 
 TEST(ThreadCount, OfASecondCallLeavesTheFirstItsThreads) {
   const Folder folder;
-  EXPECT_EQ(run_this_program(folder, "env -u OMP_NUM_THREADS", "beside others 0 0").code, 0);
+  run_self(folder, "env -u OMP_NUM_THREADS", "beside others 0 0");
 }
 int leaves_others_their_processors(const std::string&, const std::string&, std::size_t, int) {
   const int processors = processors_of_mask();

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "differential/routines.h"
-#include "support/composed_text.h"
+#include "support/fortran_mesh.h"
 #include "support/fortran_unit.h"
+#include "support/text_calls.h"
 
 namespace {
 
@@ -28,124 +28,108 @@ struct Octahedron {
   double x[6] = {1, 0, 0, -1, 0, 0}, y[6] = {0, 1, 0, 0, -1, 0}, z[6] = {0, 0, 1, 0, 0, -1};
 };
 
-// The layout of the Fortran 90 text, on standard output; to an open unit the layout of Algorithm 772.
+/// The layout of the Fortran 90 text, on standard output; to an open unit the layout of Algorithm 772.
+template <class Print>
+void expect_layouts(const Print& print, const std::string& f90) {
+  const int unit = 77;
+  EXPECT_EQ(print(nullptr), f90);
+  const std::string on_unit = written_to_unit(unit, [&] { EXPECT_EQ(print(&unit), ""); });
+  EXPECT_NE(on_unit.find("PSTRIPACK: "), std::string::npos);
+  EXPECT_NE(on_unit, f90);
+}
+
 TEST(Trprnt, OfLibstripackPrintsAsFortran90Does) {
   const Octahedron half(5);
-  const int iflag = -1, unit = 77;
+  const int iflag = -1;
   const auto print = [&](const int* lout) {
     return written_to_stdout(
         [&] { trprnt_(&half.n, half.x, half.y, half.z, &iflag, half.list, half.lptr, half.lend, lout); });
   };
-  EXPECT_EQ(print(nullptr),
-            "\n\n\n"
-            "               PSTRIPACK: the neighbours of each node,  N =     5\n"
-            "\n\n"
-            " node        neighbours, counterclockwise\n"
-            "\n\n"
-            "    1        2    3    5    0\n"
-            " \n"
-            "    2        4    3    1    0\n"
-            " \n"
-            "    3        1    2    4    5\n"
-            " \n"
-            "    4        5    3    2    0\n"
-            " \n"
-            "    5        1    3    4    0\n"
-            " \n"
-            " \n"
-            "NB =        4 boundary nodes\n"
-            "NA =        8 arcs\n"
-            "NT =        4 triangles\n");
-  const std::string on_unit = written_to_unit(unit, [&] { EXPECT_EQ(print(&unit), ""); });
-  EXPECT_NE(on_unit.find("PSTRIPACK: "), std::string::npos);
-  EXPECT_NE(on_unit, print(nullptr));
+  expect_layouts(print,
+                 "\n\n\n"
+                 "               PSTRIPACK: the neighbours of each node,  N =     5\n"
+                 "\n\n"
+                 " node        neighbours, counterclockwise\n"
+                 "\n\n"
+                 "    1        2    3    5    0\n"
+                 " \n"
+                 "    2        4    3    1    0\n"
+                 " \n"
+                 "    3        1    2    4    5\n"
+                 " \n"
+                 "    4        5    3    2    0\n"
+                 " \n"
+                 "    5        1    3    4    0\n"
+                 " \n"
+                 " \n"
+                 "NB =        4 boundary nodes\n"
+                 "NA =        8 arcs\n"
+                 "NT =        4 triangles\n");
 }
 
 TEST(Trlprt, OfLibstripackPrintsAsFortran90Does) {
   const Octahedron half(5);
-  const int iflag = 1, nrow = 9, unit = 77;
+  const int iflag = 1, nrow = 9;
   int nt, ier, ltri[9 * 6];
   trlist_(&half.n, half.list, half.lptr, half.lend, &nrow, &nt, ltri, &ier);
   const auto print = [&](const int* lout) {
     return written_to_stdout(
         [&] { trlprt_(&half.n, half.x, half.y, half.z, &iflag, &nrow, &nt, ltri, lout); });
   };
-  EXPECT_EQ(print(nullptr),
-            "\n\n\n"
-            "                  PSTRIPACK: triangles as of TRLIST,  N =    5\n"
-            "\n\n"
-            "                node      longitude         latitude\n"
-            "\n\n"
-            "                   1     0.100000E+01     0.000000E+00\n"
-            "                   2     0.000000E+00     0.100000E+01\n"
-            "                   3     0.000000E+00     0.000000E+00\n"
-            "                   4    -0.100000E+01     0.000000E+00\n"
-            "                   5     0.000000E+00    -0.100000E+01\n"
-            "\n\n"
-            "triangle         corners             neighbours              arcs\n"
-            "   no.        1      2      3      1      2      3      1      2      3\n"
-            "\n"
-            "     1        1      2      3      3      2      0      4      3      1\n"
-            "     2        1      3      5      4      0      1      7      2      3\n"
-            "     3        2      4      3      4      1      0      8      4      5\n"
-            "     4        3      4      5      0      2      3      6      7      8\n"
-            " \n"
-            "NB =        4 boundary nodes\n"
-            "NA =        8 arcs\n"
-            "NT =        4 triangles\n");
-  const std::string on_unit = written_to_unit(unit, [&] { EXPECT_EQ(print(&unit), ""); });
-  EXPECT_NE(on_unit.find("PSTRIPACK: "), std::string::npos);
-  EXPECT_NE(on_unit, print(nullptr));
+  expect_layouts(print,
+                 "\n\n\n"
+                 "                  PSTRIPACK: triangles as of TRLIST,  N =    5\n"
+                 "\n\n"
+                 "                node      longitude         latitude\n"
+                 "\n\n"
+                 "                   1     0.100000E+01     0.000000E+00\n"
+                 "                   2     0.000000E+00     0.100000E+01\n"
+                 "                   3     0.000000E+00     0.000000E+00\n"
+                 "                   4    -0.100000E+01     0.000000E+00\n"
+                 "                   5     0.000000E+00    -0.100000E+01\n"
+                 "\n\n"
+                 "triangle         corners             neighbours              arcs\n"
+                 "   no.        1      2      3      1      2      3      1      2      3\n"
+                 "\n"
+                 "     1        1      2      3      3      2      0      4      3      1\n"
+                 "     2        1      3      5      4      0      1      7      2      3\n"
+                 "     3        2      4      3      4      1      0      8      4      5\n"
+                 "     4        3      4      5      0      2      3      6      7      8\n"
+                 " \n"
+                 "NB =        4 boundary nodes\n"
+                 "NA =        8 arcs\n"
+                 "NT =        4 triangles\n");
 }
 
-/// Nodes with LIST, LPTR, LEND of our TRMESH.
-struct Triangulated {
-  void triangulate() {
-    n = static_cast<int>(x.size());
-    for (std::vector<int>* array : {&list, &lptr}) array->resize(6 * x.size());
-    lend.resize(x.size());
-    std::vector<int> near(x.size()), next(x.size());
-    std::vector<double> dist(x.size());
-    int ier;
-    trmesh_(&n, x.data(), y.data(), z.data(), list.data(), lptr.data(), lend.data(), &lnew, near.data(),
-            next.data(), dist.data(), &ier);
-    EXPECT_EQ(ier, 0);
-  }
-  void add(double height, double longitude) {
-    const double r = std::sqrt(1 - height * height);
-    x.push_back(r * std::cos(longitude)), y.push_back(r * std::sin(longitude)), z.push_back(height);
-  }
-  std::vector<std::string> printed(int iflag, bool f90) const {
-    return records_of(text_of(pstripack_trprnt_r8(n, x.data(), y.data(), z.data(), iflag, list.data(),
-                                                  lptr.data(), lend.data(), f90)));
-  }
-  int n, lnew;
-  std::vector<int> list, lptr, lend;
-  std::vector<double> x, y, z;
-};
+pstripack::Point place(double height, double longitude) {
+  const double r = std::sqrt(1 - height * height);
+  return {r * std::cos(longitude), r * std::sin(longitude), height};
+}
 
 /// Nodes on a spiral round the sphere.
-Triangulated spiral(int n) {
-  Triangulated nodes;
-  for (int k = 0; k < n; ++k) nodes.add(1 - (2 * k + 1.0) / n, 2.4 * k);
-  nodes.triangulate();
-  return nodes;
+FortranMesh spiral(int n) {
+  Nodes nodes;
+  for (int k = 0; k < n; ++k) nodes.push_back(place(1 - (2 * k + 1.0) / n, 2.4 * k));
+  return FortranMesh(nodes);
 }
 
 /// A node with this many neighbours, and these.
-Triangulated wheel(int spokes) {
-  Triangulated nodes;
-  nodes.add(1, 0);
-  for (int k = 0; k < spokes; ++k) nodes.add(0.6, 2 * std::acos(-1.0) * k / spokes);
-  nodes.triangulate();
-  return nodes;
+FortranMesh wheel(int spokes) {
+  Nodes nodes{{0, 0, 1}};
+  for (int k = 0; k < spokes; ++k) nodes.push_back(place(0.6, 2 * std::acos(-1.0) * k / spokes));
+  return FortranMesh(nodes);
+}
+
+std::vector<std::string> printed(const FortranMesh& m, int iflag, bool f90) {
+  return lines(text_of(pstripack_trprnt_r8(m.n, m.x.data(), m.y.data(), m.z.data(), iflag, m.list.data(),
+                                           m.lptr.data(), m.lend.data(), f90)));
 }
 
 // Page breaks of the two layouts: after 58 lines, of which a row of neighbours and the blank record take two.
 TEST(Trprnt, BreaksPagesWithThreeBlanksInFortran90AndFourRecordsIn77) {
-  const Triangulated nodes = spiral(60);
+  const FortranMesh nodes = spiral(60);
   for (const bool f90 : {false, true}) {
-    const std::vector<std::string> records = nodes.printed(-1, f90);
+    const std::vector<std::string> records = printed(nodes, -1, f90);
     const std::string blank = f90 ? " " : "";
     std::size_t at = 9;  // behind the heading
     for (int k = 1; k <= nodes.n; ++k) {
@@ -161,7 +145,7 @@ TEST(Trprnt, BreaksPagesWithThreeBlanksInFortran90AndFourRecordsIn77) {
 
 // After a full row Fortran's format writes the record between two nodes without a blank.
 TEST(Trprnt, RecordsBetweenNodesHaveABlankInFortran90UnlessTheRowIsFull) {
-  const std::vector<std::string> records = spiral(60).printed(0, true);
+  const std::vector<std::string> records = printed(spiral(60), 0, true);
   int full = 0, other = 0;
   for (std::size_t at = 9; at + 1 < records.size(); ++at) {
     if (records[at].size() <= 54 || records[at].substr(0, 5) == "     ") continue;
@@ -175,14 +159,14 @@ TEST(Trprnt, RecordsBetweenNodesHaveABlankInFortran90UnlessTheRowIsFull) {
   EXPECT_GT(full, 5);
   EXPECT_GT(other, 5);
   EXPECT_EQ(full + other, 60);
-  const std::vector<std::string> two_full_rows = wheel(10).printed(0, true);
+  const std::vector<std::string> two_full_rows = printed(wheel(10), 0, true);
   EXPECT_EQ(two_full_rows.at(10).size(), 54u + 5 * 5);
   EXPECT_EQ(two_full_rows.at(11), " ");
 }
 
 // The original has room for 400 neighbours.
 TEST(Trprnt, ShowsAnyNumberOfNeighbours) {
-  const std::vector<std::string> records = wheel(2000).printed(0, false);
+  const std::vector<std::string> records = printed(wheel(2000), 0, false);
   int shown = 0;
   std::size_t at = 13;  // behind the heading and a page break
   for (; !records.at(at).empty(); ++at) shown += static_cast<int>(records[at].size() - 54) / 5;
@@ -193,23 +177,17 @@ TEST(Trprnt, ShowsAnyNumberOfNeighbours) {
 // Bad input: a message instead of an overrun.
 TEST(Trprnt, EndsWhereListsAreNotClosed) {
   const std::string remark = "           LIST, LPTR, LEND are not closed lists at node    2\n";
-  for (const int slot : {0, -1, 25, 2147483647, 1}) {
+  const auto expect_remark = [&](const auto& damage, int slot) {
     Octahedron whole(6);
-    if (slot == 1)
-      whole.lptr[whole.lptr[whole.lend[1] - 1] - 1] = 1;  // into the list of node 1, and never back
-    else
-      whole.lptr[whole.lptr[whole.lend[1] - 1] - 1] = slot;
+    damage(whole);
     const std::string text =
         text_of(pstripack_trprnt_r8(6, whole.x, whole.y, whole.z, -1, whole.list, whole.lptr, whole.lend, 0));
     EXPECT_EQ(text.substr(text.size() - remark.size()), remark) << slot;
     EXPECT_LT(text.size(), 1000u);
-  }
-  for (const int slot : {0, -1, 25, 2147483647}) {
-    Octahedron whole(6);
-    whole.lend[1] = slot;
-    const std::string text =
-        text_of(pstripack_trprnt_r8(6, whole.x, whole.y, whole.z, -1, whole.list, whole.lptr, whole.lend, 0));
-    EXPECT_EQ(text.substr(text.size() - remark.size()), remark) << slot;
+  };
+  for (const int slot : {0, -1, 25, 2147483647, 1}) {  // 1: into the list of node 1, and never back
+    expect_remark([=](Octahedron& o) { o.lptr[o.lptr[o.lend[1] - 1] - 1] = slot; }, slot);
+    if (slot != 1) expect_remark([=](Octahedron& o) { o.lend[1] = slot; }, slot);
   }
 }
 
@@ -243,7 +221,7 @@ TEST(VoronoiPolyCount, CountsTheCellsOfACube) {  // the dual of the octahedron
 
 TEST(VoronoiPolyCount, SumsUpCellsOfTwentySidesAndMore) {
   for (const int spokes : {25, 20, 19}) {
-    Triangulated nodes = wheel(spokes);
+    FortranMesh nodes = wheel(spokes);
     const std::size_t size = nodes.list.size();
     std::vector<int> ltri(size), listc(size);
     std::vector<double> xc(size), yc(size), zc(size), rc(size);
@@ -252,7 +230,7 @@ TEST(VoronoiPolyCount, SumsUpCellsOfTwentySidesAndMore) {
             nodes.lend.data(), nodes.lptr.data(), &nodes.lnew, ltri.data(), listc.data(), &nb, xc.data(),
             yc.data(), zc.data(), rc.data(), &ier);
     ASSERT_EQ(ier, 0);
-    const std::vector<std::string> records = records_of(written_to_stdout(
+    const std::vector<std::string> records = lines(written_to_stdout(
         [&] { voronoi_poly_count_(&nodes.n, nodes.lend.data(), nodes.lptr.data(), listc.data()); }));
     std::map<int, int> expected;
     for (const int last : nodes.lend) {

@@ -36,9 +36,8 @@ int print_bytes_after_a_call(std::size_t n) {
 /// Bytes a node that stay after each of two calls, between which memory was released.
 std::vector<double> bytes_kept(const std::string& variables) {
   const Folder folder;
-  const Outcome outcome = run_this_program(folder, "OMP_NUM_THREADS=1 PSTRIPACK_WARM_START=1 " + variables,
-                                           "calls random 200000");
-  EXPECT_EQ(outcome.code, 0);
+  const Outcome outcome =
+      run_self(folder, "OMP_NUM_THREADS=1 PSTRIPACK_WARM_START=1 " + variables, "calls random 200000");
   std::istringstream numbers(outcome.out);
   std::vector<double> kept;
   for (double before, after; numbers >> before >> after;) kept.push_back(after - before);

@@ -18,9 +18,8 @@
 #include <utility>
 #include <vector>
 
-#include "differential/routines.h"
 #include "support/child.h"
-#include "support/composed_text.h"
+#include "support/fortran_mesh.h"
 #include "support/fortran_unit.h"
 #include "support/sanitizer.h"
 
@@ -35,31 +34,34 @@ Vec scaled(const Vec& a, double s) { return {a[0] * s, a[1] * s, a[2] * s}; }
 Vec plus(const Vec& a, const Vec& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 Vec direction(const Vec& a) { return scaled(a, 1 / std::sqrt(dot(a, a))); }
 
-/// Random nodes within `reach` degrees of a place, their triangulation and their Voronoi diagram.
-struct Sphere {
-  Sphere(int nodes, double reach, unsigned seed) : n(nodes), nt(2 * nodes - 4) {
-    std::mt19937_64 bits(seed);
-    std::uniform_real_distribution<double> uniform(-1, 1);
-    const Vec middle = direction({0.3, -0.8, 0.5});
-    while (static_cast<int>(x.size()) < n) {
-      const Vec v{uniform(bits), uniform(bits), uniform(bits)};
-      if (dot(v, v) > 1 || dot(v, v) < 0.01) continue;
-      const Vec p = direction(reach > 30 ? v : plus(middle, scaled(v, std::sin(reach * degree))));
-      if (dot(p, middle) < std::cos(reach * degree)) continue;
-      x.push_back(p[0]), y.push_back(p[1]), z.push_back(p[2]);
-    }
+/// Random nodes within `reach` degrees of a place.
+Nodes random_nodes(std::size_t n, double reach, unsigned seed) {
+  std::mt19937_64 bits(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const Vec middle = direction({0.3, -0.8, 0.5});
+  Nodes nodes;
+  while (nodes.size() < n) {
+    const Vec v{uniform(bits), uniform(bits), uniform(bits)};
+    if (dot(v, v) > 1 || dot(v, v) < 0.01) continue;
+    const Vec p = direction(reach > 30 ? v : plus(middle, scaled(v, std::sin(reach * degree))));
+    if (dot(p, middle) >= std::cos(reach * degree)) nodes.push_back({p[0], p[1], p[2]});
+  }
+  return nodes;
+}
+
+/// Such nodes, their triangulation and their Voronoi diagram.
+struct Sphere : FortranMesh {
+  Sphere(int nodes, double reach, unsigned seed)
+      : FortranMesh(random_nodes(static_cast<std::size_t>(nodes), reach, seed)), nt(2 * nodes - 4) {
     const auto size = static_cast<std::size_t>(6 * n);
-    for (std::vector<int>* array : {&list, &lptr, &lend, &listc}) array->resize(size);
+    listc.resize(size);
     for (std::vector<double>* array : {&xc, &yc, &zc}) array->resize(size);
-    std::vector<int> work(2 * size);
-    std::vector<double> dist(size);
-    int lnew, ier, nb;
-    trmesh_(&n, x.data(), y.data(), z.data(), list.data(), lptr.data(), lend.data(), &lnew, work.data(),
-            work.data() + n, dist.data(), &ier);
-    EXPECT_EQ(ier, 0);
+    std::vector<int> ltri(size);
+    std::vector<double> rc(size);
+    int ier, nb;
     voronoi_lptr = lptr;
     crlist_(&n, &n, x.data(), y.data(), z.data(), list.data(), lend.data(), voronoi_lptr.data(), &lnew,
-            work.data(), listc.data(), &nb, xc.data(), yc.data(), zc.data(), dist.data(), &ier);
+            ltri.data(), listc.data(), &nb, xc.data(), yc.data(), zc.data(), rc.data(), &ier);
     EXPECT_EQ(ier, 0);
   }
 
@@ -91,9 +93,9 @@ struct Sphere {
     return all;
   }
 
-  int n, nt;
-  std::vector<double> x, y, z, xc, yc, zc;
-  std::vector<int> list, lptr, lend, listc, voronoi_lptr;
+  int nt;
+  std::vector<double> xc, yc, zc;
+  std::vector<int> listc, voronoi_lptr;
 };
 
 /// A view of the sphere.
@@ -146,7 +148,7 @@ std::vector<Line> expected_lines(const std::set<std::pair<int, int>>& arcs, Poin
 
 /// A file of TRPLOT or VRPLOT.
 struct File {
-  explicit File(const std::string& text) : records(records_of(text)) {
+  explicit File(const std::string& text) : records(::lines(text)) {
     for (const std::string& record : records) {
       Line line;
       double x, y;

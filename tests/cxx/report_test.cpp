@@ -19,20 +19,6 @@
 
 namespace {
 
-std::vector<std::string> lines(const std::string& text) {
-  std::vector<std::string> all;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) all.push_back(line);
-  return all;
-}
-
-/// Runs this program in `folder`; it must end well.
-Outcome run(const Folder& folder, const std::string& environment, const std::string& arguments) {
-  const Outcome outcome = run_this_program(folder, environment, arguments);
-  EXPECT_EQ(outcome.code, 0) << arguments;
-  return outcome;
-}
-
 const std::string kOne = "OMP_NUM_THREADS=1 PSTRIPACK_REPORT=1";
 const std::string kSeconds = "[0-9]+\\.[0-9]{6}";
 const std::string kPhases = " seconds=" + kSeconds + " divide=" + kSeconds + " triangulate=" + kSeconds +
@@ -60,14 +46,14 @@ double value(const std::string& line, const std::string& key) {
 TEST(Report, IsSilentUnlessAskedFor) {
   const Folder folder;
   for (const char* environment : {"env -u PSTRIPACK_REPORT", "PSTRIPACK_REPORT=", "PSTRIPACK_REPORT=0"}) {
-    const Outcome outcome = run(folder, environment, "calls random 1000 2");
+    const Outcome outcome = run_self(folder, environment, "calls random 1000 2");
     EXPECT_EQ(outcome.out + outcome.err, "") << environment;
   }
 }
 
 TEST(Report, HasALineACallAndATableAtExit) {
   const Folder folder;
-  const Outcome outcome = run(folder, kOne, "calls random 1000 2");
+  const Outcome outcome = run_self(folder, kOne, "calls random 1000 2");
   EXPECT_EQ(outcome.out, "");
   const auto all = lines(outcome.err);
   ASSERT_EQ(all.size(), 4u) << outcome.err;
@@ -80,7 +66,7 @@ TEST(Report, HasALineACallAndATableAtExit) {
 /// threads=..., of=... and limit=... of a call of TRMESH by this program under `environment`.
 std::string threads_of(const std::string& environment, const std::string& call) {
   const Folder folder;
-  const std::string line = run(folder, environment + " PSTRIPACK_REPORT=1", call).err;
+  const std::string line = run_self(folder, environment + " PSTRIPACK_REPORT=1", call).err;
   std::smatch match;
   return std::regex_search(line, match, std::regex("threads=[0-9]+ of=[0-9]+ limit=[a-z]+")) ? match.str()
                                                                                              : line;
@@ -101,26 +87,25 @@ TEST(Report, TellsHowManyThreadsACallTakesAndWhy) {
 TEST(Report, AWordIsNoFile) {
   const Folder folder;
   for (const std::string word : {"yes", "TRUE", "off"}) {
-    const Outcome outcome = run(folder, "PSTRIPACK_REPORT=" + word, "calls random 1000 1");
-    EXPECT_EQ(lines(outcome.err).size(), 1u);
-    EXPECT_EQ(outcome.err.find("pstripack: PSTRIPACK_REPORT=" + word + ": neither 1 nor the path"), 0u)
-        << outcome.err;
+    const Outcome outcome = run_self(folder, "PSTRIPACK_REPORT=" + word, "calls random 1000 1");
+    expect_line(outcome.err, "pstripack: PSTRIPACK_REPORT=" + word + ": neither 1 nor the path");
     EXPECT_EQ(contents(folder.path() + "/" + word), "");
   }
-  EXPECT_EQ(run(folder, "PSTRIPACK_REPORT=./yes", "calls random 1000 1").err, "");
+  EXPECT_EQ(run_self(folder, "PSTRIPACK_REPORT=./yes", "calls random 1000 1").err, "");
   EXPECT_EQ(lines(contents(folder.path() + "/yes")).size(), 3u);
 }
 
 TEST(Report, HasNoTableWithoutACall) {
   const Folder folder;
-  EXPECT_EQ(run(folder, kOne, "calls random 1000 0").err, "");
+  EXPECT_EQ(run_self(folder, kOne, "calls random 1000 0").err, "");
 }
 
 TEST(Report, PhasesAreWithinTheCall) {
   const Folder folder;
   for (const char* threads : {"1", "2"}) {
     const std::string line =
-        run(folder, std::string("PSTRIPACK_REPORT=1 OMP_NUM_THREADS=") + threads, "calls random 60000 1").err;
+        run_self(folder, std::string("PSTRIPACK_REPORT=1 OMP_NUM_THREADS=") + threads, "calls random 60000 1")
+            .err;
     double sum = 0;
     for (const char* phase : {"divide", "triangulate", "merge", "lists", "gather"}) {
       EXPECT_GE(value(line, phase), 0) << phase;
@@ -141,18 +126,20 @@ TEST(Report, CountsBoundaryNodes) {
     const std::size_t n = point_sets::make(family, 500).size();
     const std::size_t boundary = boundary_nodes(trmesh(point_sets::make(family, n)));
     ASSERT_GT(boundary, 0u);
-    const std::string line = run(folder, kOne, "calls " + std::string(family) + " 500 1").err;
+    const std::string line = run_self(folder, kOne, "calls " + std::string(family) + " 500 1").err;
     EXPECT_EQ(value(line, "boundary"), static_cast<double>(boundary)) << line;
     EXPECT_EQ(value(line, "triangles"), static_cast<double>(2 * n - 2 - boundary)) << line;
   }
   // Three boundary nodes: as many slots as without a boundary.
-  EXPECT_TRUE(matches(lines(run(folder, kOne, "calls random 3 1").err)[0],
+  EXPECT_TRUE(matches(lines(run_self(folder, kOne, "calls random 3 1").err)[0],
                       line_of("n=3 ranks=1 threads=1 triangles=1 boundary=3 ier=0")));
 }
 
 TEST(Report, TellsEveryCode) {
   const Folder folder;
-  const auto all = lines(run(folder, kOne, "codes").err);
+  const Outcome outcome = run_self(folder, kOne, "codes");
+  EXPECT_EQ(outcome.out, "");
+  const auto all = lines(outcome.err);
   ASSERT_EQ(all.size(), 7u);
   EXPECT_TRUE(matches(all[0], line_of("n=2 ranks=1 threads=1 triangles=0 boundary=0 ier=-1")));
   EXPECT_TRUE(matches(all[1], line_of("n=100 ranks=1 threads=1 triangles=0 boundary=0 ier=-2")));
@@ -167,7 +154,7 @@ TEST(Report, TellsEveryCode) {
 TEST(Report, TellsTheLengthsWhereTheyAreNot1) {
   const Folder folder;
   const auto ends_with = [&](const std::string& as, const std::string& end) {
-    const std::string line = lines(run(folder, kOne, as).err).at(0);
+    const std::string line = lines(run_self(folder, kOne, as).err).at(0);
     return line.size() > end.size() && line.substr(line.size() - end.size()) == end;
   };
   EXPECT_TRUE(ends_with("lengths random 1000", " start=cold lengths=0.5..6.37e+03"));
@@ -178,7 +165,7 @@ TEST(Report, IsAppendedToAFile) {
   const Folder folder;
   for (const std::string& path : {std::string("report"), folder.path() + "/report"}) {
     const Outcome outcome =
-        run(folder, "OMP_NUM_THREADS=1 PSTRIPACK_REPORT=" + path, "elsewhere random 1000 1");
+        run_self(folder, "OMP_NUM_THREADS=1 PSTRIPACK_REPORT=" + path, "elsewhere random 1000 1");
     EXPECT_EQ(outcome.out + outcome.err, "");
   }
   const auto all = lines(contents(folder.path() + "/report"));
@@ -190,11 +177,9 @@ TEST(Report, IsAppendedToAFile) {
 TEST(Report, WarnsOnceOfAFileThatCannotBeWrittenAndGoesOn) {
   const Folder folder;
   for (const char* path : {"/proc/no/such/folder", "/tmp", "/dev/full"}) {
-    const Outcome outcome = run(folder, std::string("PSTRIPACK_REPORT=") + path, "calls random 100 3");
+    const Outcome outcome = run_self(folder, std::string("PSTRIPACK_REPORT=") + path, "calls random 100 3");
     EXPECT_EQ(outcome.out, "");
-    ASSERT_EQ(lines(outcome.err).size(), 1u) << outcome.err;
-    EXPECT_EQ(outcome.err.find(std::string("pstripack: PSTRIPACK_REPORT: ") + path + ": "), 0u)
-        << outcome.err;
+    expect_line(outcome.err, std::string("pstripack: PSTRIPACK_REPORT: ") + path + ": ");
   }
 }
 
@@ -206,15 +191,14 @@ TEST(Report, IsNotWrittenUnderAnotherNameWhereItsOwnIsTooLong) {
   const std::string command =
       "mkdir -p '" + folder.path() + deep + "' && cd '" + folder.path() + deep + "' && env";
   const Outcome outcome =
-      run(folder, command + " PSTRIPACK_REPORT=" + std::string(250, 'r'), "calls random 100 1");
-  EXPECT_EQ(lines(outcome.err).size(), 1u) << outcome.err;
-  EXPECT_NE(outcome.err.find("File name too long; there is no report"), std::string::npos) << outcome.err;
+      run_self(folder, command + " PSTRIPACK_REPORT=" + std::string(250, 'r'), "calls random 100 1");
+  expect_line(outcome.err, "pstripack: ", "File name too long; there is no report");
   EXPECT_EQ(std::system(("test -z \"$(find " + folder.path() + " -name 'r*')\"").c_str()), 0);
 }
 
 TEST(Report, KeepsTheLinesOfThreadsWhole) {
   const Folder folder;
-  const auto all = lines(run(folder, kOne, "threads random 500 8").err);
+  const auto all = lines(run_self(folder, kOne, "threads random 500 8").err);
   ASSERT_EQ(all.size(), 10u);
   for (int i = 0; i < 8; ++i)
     EXPECT_TRUE(matches(all[i], line_of("n=500 ranks=1 threads=1 triangles=996 boundary=0 ier=0")));
@@ -223,7 +207,7 @@ TEST(Report, KeepsTheLinesOfThreadsWhole) {
 
 TEST(Report, OfAForkedChildIsItsOwn) {
   const Folder folder;
-  const auto all = lines(run(folder, kOne, "fork random 500 1").err);
+  const auto all = lines(run_self(folder, kOne, "fork random 500 1").err);
   ASSERT_EQ(all.size(), 8u);
   EXPECT_TRUE(matches(all[4], row_of(2))) << "the child's: two calls, none of the parent's";
   EXPECT_TRUE(matches(all[7], row_of(2))) << "the parent's: one call before, one after";
@@ -233,7 +217,7 @@ TEST(Report, OfAForkedChildIsItsOwn) {
 TEST(Report, TellsTheOrderAndHowFarFromTheExactMeshTheOriginalIs) {
   const Folder folder;
   const auto order_of = [&](const std::string& order, const std::string& arguments) {
-    const std::string line = lines(run(folder, kOne + " PSTRIPACK_ORDER=" + order, arguments).err)[0];
+    const std::string line = lines(run_self(folder, kOne + " PSTRIPACK_ORDER=" + order, arguments).err)[0];
     return line.substr(line.find(" order=") + 1);
   };
   for (const std::string order : {"original", "bitwise"}) {
@@ -252,7 +236,7 @@ TEST(Report, TellsTheOrderAndHowFarFromTheExactMeshTheOriginalIs) {
 TEST(Report, TellsTheOrdersThatThereAre) {
   const Folder folder;
   EXPECT_EQ(
-      lines(run(folder, "PSTRIPACK_ORDER=bitwse", "calls random 100 1").err),
+      lines(run_self(folder, "PSTRIPACK_ORDER=bitwse", "calls random 100 1").err),
       std::vector<std::string>{"pstripack: PSTRIPACK_ORDER=bitwse: no such order, so canonical is used; set "
                                "it to canonical, original, bitwise, ngmath or bitwise-ngmath"});
 }
@@ -285,19 +269,12 @@ int run_as(const std::string& action, const std::string& family, std::size_t n, 
   if (action == "six") return trmesh(kSix).ier;
   Nodes nodes = point_sets::make(family, n);
   if (action == "lengths") {
-    for (auto& p : nodes) p = {6371 * p.x, 6371 * p.y, 6371 * p.z};
+    for (auto& p : nodes) p = scaled(6371, p);
     nodes[7] = {0, 0, 0.5};
     return trmesh(nodes).ier;
   }
   if (action == "inserted") return trmesh(nodes).ier;
-  const auto call = [&nodes] { call_trmesh(nodes); };
-  if (action == "threads") {
-    call_on_threads(count, call);
-    return 0;
-  }
-  if (action == "elsewhere" && (chdir("/") != 0 || unsetenv("PSTRIPACK_REPORT") != 0)) return 1;
-  for (int i = 0; i < count; ++i) call();
-  return action == "fork" ? call_around_a_fork(call) : 0;
+  return make_calls(action, nodes, count, "PSTRIPACK_REPORT");
 }
 
 }  // namespace

@@ -13,8 +13,8 @@
 
 #include "differential/differential.h"
 #include "differential/routines.h"
-#include "support/composed_text.h"
 #include "support/fortran_unit.h"
+#include "support/text_calls.h"
 
 using namespace differential;
 
@@ -49,7 +49,7 @@ std::string essence(std::string record) {
 
 /// The first record in which two listings differ; "" if they are equal.
 std::string difference(const std::string& ours, const std::string& original) {
-  const std::vector<std::string> a = records_of(ours), b = records_of(original);
+  const std::vector<std::string> a = lines(ours), b = lines(original);
   for (std::size_t i = 0; i < a.size() && i < b.size(); ++i)
     if (essence(a[i]) != essence(b[i]))
       return "record " + std::to_string(i + 1) + ": '" + a[i] + "', original '" + b[i] + "'";

@@ -11,11 +11,11 @@
 #include <set>
 #include <thread>
 
+#include "capi/plain_calls.h"
 #include "child_process.h"
 #include "differential/differential.h"
 #include "differential/routines.h"
 #include "support/cases.h"
-#include "support/stripack_calls.h"
 
 using namespace differential;
 

@@ -9,21 +9,101 @@
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <numeric>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "base/workspace.h"
+#include "capi/plain_calls.h"
 #include "capi/pstripack.h"
-#include "injection.h"
 #include "point_sets.h"
 #include "support/child.h"
+#include "support/columns.h"
+#include "support/failing_allocation.h"
 #include "support/lists.h"
 #include "support/moves.h"
-#include "support/stripack_calls.h"
 #include "support/text_calls.h"
 #include "trmesh/warm_start.h"
 
 namespace {
+
+/// An array that a call writes, with its contents before the call.
+class Result {
+ public:
+  template <class T>
+  explicit Result(std::vector<T>& array)
+      : place_(reinterpret_cast<unsigned char*>(array.data())),
+        before_(place_, place_ + array.size() * sizeof(T)) {}
+
+  void restore() const { std::copy(before_.begin(), before_.end(), place_); }
+  std::vector<unsigned char> bytes() const { return {place_, place_ + before_.size()}; }
+  bool is_untouched() const { return std::equal(before_.begin(), before_.end(), place_); }
+
+ private:
+  unsigned char* place_;
+  std::vector<unsigned char> before_;
+};
+
+struct Call {
+  std::function<std::int64_t()> run;  ///< returns its code
+  std::vector<Result> results;
+  std::int64_t out_of_memory = -6;  ///< the code for it
+  std::ptrdiff_t lines = 1;         ///< number of lines on stderr in this case
+  long every = 1;                   ///< a call without failures is tried after this many failures
+};
+
+/// Runs the call repeatedly: first its first allocation fails, then its second, until no allocation is left;
+/// then all allocations from the first on fail, from the second on, ... Each run must return the code for it
+/// and leave the results unchanged, or do without the memory. It must leak nothing, and the next call must be
+/// correct. Returns a lower bound of the number of failed allocations.
+long fail_each_allocation(const Call& call) {
+  const auto restore = [&] {
+    std::for_each(call.results.begin(), call.results.end(), [](auto& r) { r.restore(); });
+  };
+  const auto written = [&] {
+    std::vector<std::vector<unsigned char>> all;
+    for (const Result& r : call.results) all.push_back(r.bytes());
+    return all;
+  };
+  restore();
+  const std::int64_t code = call.run();
+  const auto expected = written();
+  EXPECT_NE(code, call.out_of_memory);
+  long failures = 0;
+  for (const bool for_good : {false, true})
+    for (long which = 1;; ++which, ++failures) {
+      restore();
+      pstripack::free_cached_blocks();
+      std::int64_t now;
+      ::testing::internal::CaptureStderr();
+      {
+        const FailingAllocation memory(which, for_good);
+        now = call.run();
+      }
+      const std::string said = ::testing::internal::GetCapturedStderr();
+      const std::string where =
+          (for_good ? "from allocation " : "allocation ") + std::to_string(which) + ": " + said;
+      pstripack::free_cached_blocks();
+      EXPECT_EQ(FailingAllocation::blocks(), 0u) << where;
+      if (now == call.out_of_memory) {
+        EXPECT_TRUE(FailingAllocation::happened()) << where;
+        for (const Result& r : call.results) EXPECT_TRUE(r.is_untouched()) << where;
+        EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), call.lines) << where;
+      } else {
+        EXPECT_EQ(now, code) << where;
+        EXPECT_TRUE(written() == expected) << where;
+      }
+      if (which % call.every == 0) {
+        restore();
+        EXPECT_EQ(call.run(), code) << "after " << where;
+        EXPECT_TRUE(written() == expected) << "after " << where;
+      }
+      if (::testing::Test::HasFailure() || !FailingAllocation::happened()) break;
+    }
+  return failures;
+}
 
 /// The routines for one kind of reals and integers.
 #define KIND(name, RealType, IntType, list_suffix, suffix, trmesh_name)          \
@@ -50,22 +130,18 @@ KIND(I8, double, std::int64_t, i8, i8, pstripack_trmesh_i8);
 
 /// The arrays of a triangulation and of all that is computed from it.
 template <class Kind>
-struct Arrays {
+struct Arrays : Columns<typename Kind::Real> {
   using Real = typename Kind::Real;
   using Int = typename Kind::Int;
+  using Columns<Real>::x, Columns<Real>::y, Columns<Real>::z;
 
   explicit Arrays(const Nodes& nodes)
-      : n(static_cast<Int>(nodes.size())),
+      : Columns<Real>(nodes),
+        n(static_cast<Int>(nodes.size())),
         list(6 * nodes.size() - 12, -77),
         lptr(list),
         lend(nodes.size(), -77),
-        lnew(1, -77) {
-    for (const auto& p : nodes) {
-      x.push_back(static_cast<Real>(p.x));
-      y.push_back(static_cast<Real>(p.y));
-      z.push_back(static_cast<Real>(p.z));
-    }
-  }
+        lnew(1, -77) {}
   Call trmesh() {
     return {[this] {
               return Kind::trmesh(n, x.data(), y.data(), z.data(), list.data(), lptr.data(), lend.data(),
@@ -75,7 +151,6 @@ struct Arrays {
   }
 
   Int n;
-  std::vector<Real> x, y, z;
   std::vector<Int> list, lptr, lend, lnew;
 };
 
@@ -93,7 +168,7 @@ std::vector<Nodes> small_sets() {
   sets[2][170] = sets[2][60];
   for (std::size_t i = 0; i < 200; ++i) {
     const double length = 1 + static_cast<double>(i % 7) / 4;
-    sets[3][i] = {length * sets[3][i].x, length * sets[3][i].y, length * sets[3][i].z};
+    sets[3][i] = scaled(length, sets[3][i]);
   }
   return sets;
 }

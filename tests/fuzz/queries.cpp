@@ -4,7 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "fortran_mesh.h"
+#include "input.h"
+#include "support/fortran_mesh.h"
 #include "support/guarded.h"
 
 namespace {

@@ -6,11 +6,10 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <string>
-#include <vector>
+
+#include "support/text.h"
 
 extern "C" {
 int open_unit(int unit, const char* path, int path_length, const char* access, int access_length);
@@ -32,11 +31,7 @@ class TemporaryFile {
 
   std::string path() const { return path_; }
   int descriptor() const { return file_; }
-  std::string text() const {
-    std::ostringstream all;
-    all << std::ifstream(path_).rdbuf();
-    return all.str();
-  }
+  std::string text() const { return contents(path_); }
 
  private:
   char path_[32] = "/tmp/pstripack_test_XXXXXX";
@@ -83,12 +78,4 @@ std::string written_to_stdout(Write write) {
   dup2(kept, 1);
   close(kept);
   return file.text();
-}
-
-/// The records of a text, without their ends.
-inline std::vector<std::string> records_of(const std::string& text) {
-  std::vector<std::string> records;
-  std::istringstream stream(text);
-  for (std::string record; std::getline(stream, record);) records.push_back(record);
-  return records;
 }

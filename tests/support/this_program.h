@@ -7,16 +7,14 @@
 
 #include <cerrno>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include "point_sets.h"
 #include "support/expect.h"
 #include "support/sanitizer.h"
+#include "support/text.h"
 #include "support/trmesh.h"
 
 /// A temporary folder, removed at the end.
@@ -35,28 +33,27 @@ class Folder {
   std::string path_;
 };
 
-inline std::string contents(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 struct Outcome {
-  int code;  ///< -1: a signal
   std::string out, err;
 };
 
-/// Runs `before`, words of a shell, and this program with `--as arguments` in `folder`.
-inline Outcome run_this_program(const Folder& folder, const std::string& before,
-                                const std::string& arguments) {
+/// Runs `before`, words of a shell, and this program with `--as arguments` in `folder`. It must end well, or
+/// not, if so told.
+inline Outcome run_self(const Folder& folder, const std::string& before, const std::string& arguments,
+                        bool well = true) {
   char self[4096] = "";
   EXPECT_GT(readlink("/proc/self/exe", self, sizeof self - 1), 0);
   const std::string command =
       "cd " + folder.path() + " && exec > out 2> err && " + before + " '" + self + "' --as " + arguments;
-  const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder.path() + "/out"),
-          contents(folder.path() + "/err")};
+  EXPECT_EQ(std::system(command.c_str()) == 0, well) << before << " " << arguments;
+  return {contents(folder.path() + "/out"), contents(folder.path() + "/err")};
+}
+
+/// Expects one line that begins or goes on so.
+inline void expect_line(const std::string& text, const std::string& begin, const std::string& then = "") {
+  EXPECT_EQ(lines(text).size(), 1u) << text;
+  EXPECT_EQ(text.find(begin), 0u) << text;
+  EXPECT_NE(text.find(then), std::string::npos) << text;
 }
 
 /// TRMESH returns the codes that STRIPACK documents, and -5; four calls.
@@ -83,17 +80,20 @@ inline void call_trmesh(const Nodes& nodes) {
   if (!is_correct(nodes, m)) std::_Exit(1);
 }
 
-/// Runs call() on `count` threads at once.
-template <class Call>
-void call_on_threads(int count, const Call& call) {
-  std::vector<std::thread> threads;
-  for (int i = 0; i < count; ++i) threads.emplace_back(call);
-  for (auto& t : threads) t.join();
-}
-
-/// call() twice in a forked child, then once here. Returns the child's status.
-template <class Call>
-int call_around_a_fork(const Call& call) {
+/// Calls TRMESH `count` times: on as many threads at once (action "threads"), behind a change of the folder
+/// and without `variable` ("elsewhere"), before two calls in a forked child and another one here ("fork").
+/// Returns an exit code.
+inline int make_calls(const std::string& action, const Nodes& nodes, int count, const char* variable) {
+  const auto call = [&nodes] { call_trmesh(nodes); };
+  if (action == "threads") {
+    std::vector<std::thread> threads;
+    for (int i = 0; i < count; ++i) threads.emplace_back(call);
+    for (auto& t : threads) t.join();
+    return 0;
+  }
+  if (action == "elsewhere" && (chdir("/") != 0 || unsetenv(variable) != 0)) return 1;
+  for (int i = 0; i < count; ++i) call();
+  if (action != "fork") return 0;
   const pid_t child = fork();
   if (child == 0) {
     call();

@@ -1,10 +1,11 @@
 #pragma once
 // A triangulation in the arrays of Fortran programs, made and changed by the public symbols of libstripack.
 
-#include <numeric>
+#include <stdexcept>
+#include <vector>
 
 #include "differential/routines.h"
-#include "input.h"
+#include "lists.h"
 
 struct FortranMesh {
   int n = 0, lnew = 0;
@@ -12,8 +13,12 @@ struct FortranMesh {
   std::vector<int> list, lptr, lend;
 
   /// Room for `most` nodes.
-  explicit FortranMesh(int most)
+  explicit FortranMesh(std::size_t most)
       : x(most), y(most), z(most), list(6 * most - 12), lptr(6 * most - 12), lend(most) {}
+  /// The triangulation of these, which must have one.
+  explicit FortranMesh(const Nodes& nodes) : FortranMesh(nodes.size()) {
+    if (triangulate(nodes) != 0) throw std::runtime_error("IER != 0");
+  }
 
   void place(int node, const pstripack::Point& p) { x[node - 1] = p.x, y[node - 1] = p.y, z[node - 1] = p.z; }
   pstripack::Point node(int k) const { return {x[k - 1], y[k - 1], z[k - 1]}; }
