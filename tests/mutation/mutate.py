@@ -23,8 +23,8 @@ import sys
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 PER_LINE = 1
 # Of each file the lines from the first text to the second; the tests: (executable, filter, share of the cases).
-QUICK = ("predicates_test", "-Exact.*:Filter.IsMeasured*", 0.01)
-LONGER = ("predicates_test", "-Exact.*:Filter.IsMeasured*", 0.05)
+QUICK = ("predicates_test", "-Exact.*", 0.01)
+LONGER = ("predicates_test", "-Exact.*", 0.05)
 KERNEL = ("parallel_test", "Nasty.*:Coincident.*", 1)
 FLIPS = ("flips_test", "*", 0.5)
 WARM = ("warm_start_test", "*", 1)
