@@ -13,7 +13,7 @@ build=${1:-$source/build-coverage}
 [ $# -eq 0 ] || shift
 
 if [ $# -eq 0 ]; then
-  tests='predicates_test|validator_test|mesh_test|edit_(broken_lists_)?test|listing_test|plot_test|check_test|report_test|wide_integers'
+  tests='predicates_test|validator_test|mesh_test|edit_(broken_lists_)?test|listing_test|plot_test|check_test|report_test'
   tests="$tests|catalogue_(numbers|callers|duplicates|beyond)|fuzz_corpus|faults"
   tests="$tests|fortran\\.|privileges|point_files|dlopen"
   set -- -R "$tests"
@@ -27,7 +27,7 @@ find "$build" -name '*.gcda' -delete
 export PSTRIPACK_CASES=0.02
 few='*FewNodes*:*Nasty*:*Coincident*:*GivingUp*:*/np1_*:*/np3_*'
 for program in catalogue_small delaunay parallel; do
-  PSTRIPACK_WARM_START=0 "$build/tests/cxx/${program}_test" --gtest_filter="$few-*LargePatches*"
+  PSTRIPACK_WARM_START=0 "$build/tests/cxx/${program}_test" --gtest_filter="$few"
 done
 ctest --test-dir "$build" --output-on-failure -j "$(nproc)" "$@"
 gcovr --root "$source" --filter src/cxx/ --exclude-throw-branches --exclude-unreachable-branches \

@@ -145,15 +145,6 @@ TEST(Calls, InAForkedChildAreRight) {
   EXPECT_TRUE(trmesh(nodes) == expected);
 }
 
-TEST(Calls, DoNotFollowAddresses) {
-  // Meshes are not recognized by address: the next call gets other points at the same address.
-  Nodes nodes = make("random", 500);
-  const Mesh first = trmesh(nodes);
-  const Mesh other = trmesh(make("random", 500, 2));
-  EXPECT_FALSE(first == other);
-  EXPECT_TRUE(trmesh(nodes) == first);
-}
-
 TEST(OutOfMemory, IsReportedAndTouchesNothing) {
   // In a child whose address space is limited to little more than it uses: every limit must work.
   const Nodes nodes = make("random", 50000);
@@ -176,17 +167,6 @@ TEST(OutOfMemory, IsReportedAndTouchesNothing) {
   }
   EXPECT_GT(refused, 3);
   EXPECT_GT(done, 1);
-}
-
-TEST(Library, WritesNothingToStdout) {
-  ::testing::internal::CaptureStdout();
-  (void)trmesh(make("random", 1000));
-  ::testing::internal::CaptureStderr();
-  Nodes bad = make("random", 10);
-  bad[4].x = std::nan("");
-  (void)trmesh(bad);
-  (void)::testing::internal::GetCapturedStderr();
-  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
 }
 
 }  // namespace

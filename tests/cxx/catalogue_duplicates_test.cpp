@@ -73,26 +73,6 @@ TEST(Duplicate, TheSmallestOfManyIsReported) {
   expect_duplicate(nodes, 60, 70);
 }
 
-TEST(Duplicate, AmongTheFirstThreeIsCollinear) {
-  for (const auto& [l, m] : {std::pair{1, 2}, {1, 3}, {2, 3}}) {
-    const Mesh mesh =
-        trmesh(with(make("random", 50), static_cast<std::size_t>(l), static_cast<std::size_t>(m)));
-    EXPECT_EQ(mesh.ier, -2);
-    EXPECT_TRUE(is_untouched(mesh));
-  }
-  EXPECT_EQ(trmesh(Nodes(50, Point{0.6, 0, 0.8})).ier, -2);
-}
-
-TEST(Duplicate, MinusZeroIsZero) {
-  Nodes nodes = make("random", 50);
-  nodes[10] = {1, 0.0, 0.0};
-  nodes[30] = {1, -0.0, 0.0};
-  expect_duplicate(nodes, 11, 31);
-  nodes[10] = {-0.0, 1, -0.0};
-  nodes[30] = {0.0, 1, 0.0};
-  expect_duplicate(nodes, 11, 31);
-}
-
 TEST(Duplicate, TheSameDirectionWithAnotherLengthIsReported) {
   for (const double scale : {2.0, 0.5, 0x1p-500, 0x1p900}) {
     Nodes nodes = make("random", 50);
@@ -109,12 +89,6 @@ TEST(Duplicate, TheSameDirectionWithAnotherLengthIsReported) {
     std::swap(nodes[10], nodes[30]);
     expect_duplicate(nodes, 11, 31);
   }
-}
-
-TEST(Duplicate, IsNotReportedForOppositeNodes) {
-  Nodes nodes = make("random", 50);
-  nodes[30] = {-nodes[10].x, -nodes[10].y, -nodes[10].z};
-  EXPECT_TRUE(is_correct(nodes, trmesh(nodes)));
 }
 
 TEST(Duplicate, IsReportedTheSameWithAnyThreads) {

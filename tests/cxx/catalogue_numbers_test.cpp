@@ -1,5 +1,5 @@
-// TRMESH of vectors without direction or of extreme length, and of numbers of nodes that are too large. The
-// floating-point environment: tests/numerics.
+// TRMESH of vectors without direction or of extreme length, of numbers of nodes that are too large, and with
+// 64-bit integers. The floating-point environment: tests/numerics.
 
 #include <gtest/gtest.h>
 #include <sys/mman.h>
@@ -98,20 +98,10 @@ TEST(TooMany, TheLargestThatFitsIsNot) {
   munmap(zeros, bytes);
 }
 
-TEST(ErrorCodes, HaveALineEach) {
-  for (int code = -8; code <= 5; ++code) {
-    ASSERT_NE(pstripack_strerror(code), nullptr);
-    EXPECT_NE(std::string(pstripack_strerror(code)), "") << code;
-    EXPECT_EQ(std::string(pstripack_strerror(code)).find('\n'), std::string::npos);
-  }
-  EXPECT_STRNE(pstripack_strerror(-4), pstripack_strerror(-5));
-  EXPECT_STREQ(pstripack_version(), PSTRIPACK_VERSION_EXPECTED);
-}
-
 // ---- Sizes of vectors ----
 
 Nodes scaled(Nodes nodes, double s) {
-  for (Point& p : nodes) p = {s * p.x, s * p.y, s * p.z};
+  for (Point& p : nodes) p = scaled(s, p);
   return nodes;
 }
 
@@ -192,5 +182,37 @@ TEST_P(SinglePrecision, NodesAreCorrectAndAsInDouble) {
 
 INSTANTIATE_TEST_SUITE_P(Of, SinglePrecision, testing::Values(4, 1000, 100000, 1000000),
                          testing::PrintToStringParamName());
+
+// ---- 64-bit integers: what is not in the Fortran tests of libstripack_i8 ----
+
+TEST(WideTrmesh, WritesTheSameAndNothingElse) {
+  for (const char* family : {"random", "latlon", "cap:1e-8", "hemisphere-rim", "ring", "hemisphere"})
+    for (const std::size_t n : {3, 4, 5, 6, 7, 12, 200, 1000}) {
+      const Nodes nodes = make(family, n);
+      const Mesh expected = trmesh(nodes);
+      for (const Edge edge : {Edge::begin, Edge::end})
+        EXPECT_TRUE(trmesh_i8(nodes, edge) == expected && trmesh_i8(nodes, edge).ier == expected.ier)
+            << family << ", " << nodes.size() << " nodes";
+    }
+}
+
+TEST(WideTrmesh, WritesTheSameOnThreads) {
+  const Nodes nodes = make("random", 50000);
+  EXPECT_TRUE(trmesh_i8(nodes) == trmesh(nodes));
+}
+
+TEST(WideTrmesh, TouchesNoArrayIfThereAreTooManyNodes) {
+  const auto code_of = [](std::int64_t n) {
+    return pstripack_trmesh_i8(n, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr);
+  };
+  ::testing::internal::CaptureStderr();
+  EXPECT_EQ(code_of(357913944), PSTRIPACK_TOO_MANY_NODES);
+  // Numbers whose lower halves are numbers of nodes that could be triangulated.
+  EXPECT_EQ(code_of((std::int64_t{1} << 32) + 10), PSTRIPACK_TOO_MANY_NODES);
+  EXPECT_EQ(code_of(std::numeric_limits<std::int64_t>::max()), PSTRIPACK_TOO_MANY_NODES);
+  EXPECT_EQ(code_of(-(std::int64_t{1} << 32) + 10), PSTRIPACK_TOO_FEW_NODES);
+  const std::string text = ::testing::internal::GetCapturedStderr();
+  EXPECT_NE(text.find(" 4294967306 nodes: too many nodes"), std::string::npos) << text;
+}
 
 }  // namespace

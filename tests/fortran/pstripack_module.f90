@@ -20,6 +20,7 @@ program pstripack_module
   call expect(len(pstripack_version()) >= 5 .and. index(pstripack_version(), ".") > 1, "version")
   do k = pstripack_bad_size, 3
     call expect(len(pstripack_strerror(int(k, c_int32_t))) > 0, "every code has a text")
+    call expect(index(pstripack_strerror(int(k, c_int32_t)), new_line("a")) == 0, "every text is one line")
   end do
   do k = 1, n
     p = direction()
