@@ -12,22 +12,23 @@
 namespace methods {
 namespace {
 
-/// A least-squares fit with K functions.
-template <int K>
+/// The functions of a fit: u, v, u^2, u v, v^2. The first two are linear.
+constexpr int kLinear = 2, kQuadratic = 5;
+using Numbers = std::array<double, kQuadratic>;
+
+/// A least-squares fit.
 class LeastSquares {
  public:
-  using Numbers = std::array<double, K>;
-
   void add(const Numbers& f, double weight) {
-    for (int i = 0; i < K; ++i)
+    for (int i = 0; i < kQuadratic; ++i)
       for (int j = 0; j <= i; ++j) matrix_[i][j] += weight * f[i] * f[j];
   }
 
-  /// After all functions are added: Cholesky's factors of the normal equations. False if the nodes do not
-  /// determine the coefficients.
+  /// After all places are added: Cholesky's factors of the normal equations, of which the first rows are
+  /// those of the first functions. False if the nodes do not determine all coefficients.
   bool factor() {
     constexpr double kLeast = 1e-9;  // least pivot, relative to its diagonal element
-    for (int i = 0; i < K; ++i) {
+    for (int i = 0; i < kQuadratic; ++i) {
       const double diagonal = matrix_[i][i];
       for (int j = 0; j <= i; ++j) {
         double sum = matrix_[i][j];
@@ -43,23 +44,24 @@ class LeastSquares {
     return true;
   }
 
-  /// The coefficients. `right`: the sums of products of the functions, values and weights.
-  Numbers solve(const Numbers& right) const {
-    Numbers x;
-    for (int i = 0; i < K; ++i) {
+  /// The coefficients of the first `count` functions. `right`: the sums of products of the functions, values
+  /// and weights.
+  Numbers solve(const Numbers& right, int count) const {
+    Numbers x{};
+    for (int i = 0; i < count; ++i) {
       x[i] = right[i];
       for (int k = 0; k < i; ++k) x[i] -= matrix_[i][k] * x[k];
       x[i] /= matrix_[i][i];
     }
-    for (int i = K - 1; i >= 0; --i) {
-      for (int k = i + 1; k < K; ++k) x[i] -= matrix_[k][i] * x[k];
+    for (int i = count - 1; i >= 0; --i) {
+      for (int k = i + 1; k < count; ++k) x[i] -= matrix_[k][i] * x[k];
       x[i] /= matrix_[i][i];
     }
     return x;
   }
 
  private:
-  double matrix_[K][K] = {};  // the lower triangle
+  double matrix_[kQuadratic][kQuadratic] = {};  // the lower triangle
 };
 
 /// Two perpendicular tangents at p.
@@ -112,15 +114,12 @@ class Fit {
       longest = std::max(longest, dot(d, d));
     }
     scale_ = std::sqrt(longest);
-    quadratic_ = {}, linear_ = {};
+    fit_ = {};
     for (Place& at : places_) {
       at = {at.u / scale_, at.v / scale_, longest / at.weight};
-      quadratic_.add(quadratic(at), at.weight);
-      linear_.add(linear(at), at.weight);
+      fit_.add(functions(at), at.weight);
     }
-    if (find_line()) return;
-    kind_ = rings_.size() > 5 && quadratic_.factor() ? Kind::quadratic : Kind::linear;
-    if (kind_ == Kind::linear) linear_.factor();
+    if (!find_line()) count_ = fit_.factor() && rings_.size() > kQuadratic ? kQuadratic : kLinear;
   }
 
   /// Of the last node: its neighbours and their neighbours.
@@ -129,46 +128,28 @@ class Fit {
   /// The gradient, if the value at nodes()[k] exceeds that of the node itself by excess(k).
   template <class Excess>
   Point gradient(const Excess& excess) const {
-    double u, v;
-    if (kind_ == Kind::quadratic) {
-      const auto x = quadratic_.solve(sums<5>(quadratic, excess));
-      u = x[0], v = x[1];
-    } else if (kind_ == Kind::linear) {
-      const auto x = linear_.solve(sums<2>(linear, excess));
-      u = x[0], v = x[1];
-    } else {
-      const double slope = sums<1>([&](const Place& p) { return std::array{along(p)}; }, excess)[0] / spread_;
-      u = slope * axis_[0], v = slope * axis_[1];
+    Numbers right{};
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      const Numbers f = count_ == 0 ? Numbers{along(places_[k])} : functions(places_[k]);
+      for (int i = 0; i < std::max(count_, 1); ++i) right[i] += places_[k].weight * f[i] * excess(k);
     }
-    u /= scale_, v /= scale_;
+    const double slope = right[0] / spread_;
+    const Numbers x = count_ == 0 ? Numbers{slope * axis_[0], slope * axis_[1]} : fit_.solve(right, count_);
+    const double u = x[0] / scale_, v = x[1] / scale_;
     return {u * tangent_[0].x + v * tangent_[1].x, u * tangent_[0].y + v * tangent_[1].y,
             u * tangent_[0].z + v * tangent_[1].z};
   }
 
  private:
-  enum class Kind { line, linear, quadratic };
   struct Place {
     double u, v, weight;
   };
-  static std::array<double, 5> quadratic(const Place& p) {
-    return {p.u, p.v, p.u * p.u, p.u * p.v, p.v * p.v};
-  }
-  static std::array<double, 2> linear(const Place& p) { return {p.u, p.v}; }
+  static Numbers functions(const Place& p) { return {p.u, p.v, p.u * p.u, p.u * p.v, p.v * p.v}; }
 
   /// The length of the arc to a place on the line.
   double along(const Place& p) const {
     const double sine = scale_ * (axis_[0] * p.u + axis_[1] * p.v);
     return std::asin(std::clamp(sine, -1.0, 1.0)) / scale_;
-  }
-
-  template <int K, class Functions, class Value>
-  std::array<double, K> sums(const Functions& functions, const Value& value) const {
-    std::array<double, K> right{};
-    for (std::size_t k = 0; k < places_.size(); ++k) {
-      const std::array<double, K> f = functions(places_[k]);
-      for (int i = 0; i < K; ++i) right[i] += places_[k].weight * f[i] * value(k);
-    }
-    return right;
   }
 
   /// True if the nodes lie on a great circle through the node, up to 1e-4 of their distances: they do not
@@ -187,7 +168,7 @@ class Fit {
       across += p.weight * off * off;
       spread_ += p.weight * along(p) * along(p);
     }
-    kind_ = Kind::line;
+    count_ = 0;
     return across <= kMostAcross * spread_;
   }
 
@@ -197,9 +178,8 @@ class Fit {
   std::vector<std::int32_t> rings_;
   std::vector<Place> places_;  // of these in the tangents, over scale_
   double scale_ = 1;
-  Kind kind_ = Kind::linear;
-  LeastSquares<5> quadratic_;
-  LeastSquares<2> linear_;
+  LeastSquares fit_;
+  int count_ = 0;                 // of its functions; 0: a straight line is fitted
   std::array<double, 2> axis_{};  // principal axis of the places
   double spread_ = 0;             // along it
 };
@@ -237,19 +217,11 @@ std::vector<Point> gradients(const Triangulated& mesh, const NodeValues& values)
 }
 
 GradientTerms gradient_terms(const Triangulated& mesh) {
-  GradientTerms all;
-  all.begin.resize(mesh.lists.n + 1);
-  std::vector<std::int32_t> rings;
-  const pstripack::ListReader<std::int32_t> reader(mesh.lists);
-  for (std::size_t i = 0; i < mesh.lists.n; ++i) {
-    two_rings(reader, static_cast<std::int32_t>(i) + 1, rings);
-    all.begin[i + 1] = all.begin[i] + rings.size();
-  }
-  all.terms.resize(all.begin.back());
+  GradientTerms all(mesh.lists.n);
   for_each_fit(mesh, [&](std::size_t i, const Fit& fit) {
     for (std::size_t k = 0; k < fit.nodes().size(); ++k)
-      all.terms[all.begin[i] + k] = {fit.nodes()[k],
-                                     fit.gradient([&](std::size_t other) { return other == k ? 1.0 : 0.0; })};
+      all[i].push_back(
+          {fit.nodes()[k], fit.gradient([&](std::size_t other) { return other == k ? 1.0 : 0.0; })});
   });
   return all;
 }

@@ -29,16 +29,12 @@ inline std::vector<Point> gradients(const Triangulated& mesh, const std::vector<
   return gradients(mesh, {values.data(), 1, 1});
 }
 
-/// The same as sums: the gradient at node i is that of part * (value of `node` - value of node i), over the
-/// terms begin[i-1] ... begin[i]-1.
-struct GradientTerms {
-  struct Term {
-    std::int32_t node;  ///< from 1
-    Point part;
-  };
-  std::vector<std::size_t> begin;
-  std::vector<Term> terms;
+/// The same as sums for each node: the gradient is that of part * (value of `node` - its own value).
+struct GradientTerm {
+  std::int32_t node;  ///< from 1
+  Point part;
 };
+using GradientTerms = std::vector<std::vector<GradientTerm>>;
 GradientTerms gradient_terms(const Triangulated& mesh);
 
 }  // namespace methods

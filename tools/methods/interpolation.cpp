@@ -1,7 +1,6 @@
 #include "methods/interpolation.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -14,7 +13,6 @@
 #include "geometry/weights.h"
 #include "methods/gradients.h"
 #include "stripack/list_queries.h"
-#include "stripack/search.h"
 
 namespace methods {
 namespace {
@@ -54,11 +52,6 @@ std::vector<std::uint32_t> along_a_curve(const std::vector<Point>& places) {
   return order;
 }
 
-/// What geometry/weights.h takes.
-pstripack::Corners pointers(const std::array<Direction, 3>& corner) {
-  return {&corner[0], &corner[1], &corner[2]};
-}
-
 }  // namespace
 
 Interpolation::Interpolation(const Triangulated& mesh, std::shared_ptr<const void> owner)
@@ -73,13 +66,18 @@ Interpolation::Interpolation(const Triangulated& mesh, std::shared_ptr<const voi
 }
 
 const pstripack::Direction* Interpolation::directions() const {
-  std::call_once(known_->once, [&] { known_->directions = directions_of(mesh_); });
+  std::call_once(known_->once, [&] {
+    std::vector<Direction>& all = known_->directions;
+    all.resize(mesh_.lists.n);
+    pstripack::parallel_for(all.size(), all.size(), [&](std::size_t i) {
+      all[i] = mesh_.direction(static_cast<std::int32_t>(i) + 1);
+    });
+  });
   return known_->directions.data() - 1;  // nodes count from 1
 }
 
-/// The sign of orientation(a, b, place). The filter takes the rounded unit vectors, which the search has just
-/// read: each is right to 2^-52, so their determinant is right to 3 * 2^-52, and its roundings are below
-/// 12 * 2^-53.
+/// The sign of orientation(a, b, place). The filter takes the rounded unit vectors: each is right to 2^-52,
+/// so their determinant is right to 3 * 2^-52, and its roundings are below 12 * 2^-53.
 int Interpolation::side_of_arc(std::int32_t a, std::int32_t b, const Direction& place) const {
   const double sign = dot(place.high, cross(mesh_.unit_at(a), mesh_.unit_at(b)));
   constexpr double kError = 16 * 0x1p-52;
@@ -109,7 +107,7 @@ bool Interpolation::cross_arcs(const Direction& place, Corners& corners) const {
       continue;
     }
     if (side == 0) on_arc = corners;
-    std::rotate(corners.begin(), corners.begin() + 1, corners.end());
+    corners = {b, c, a};
     ++k;
   }
   if (on_arc[0] != 0) {
@@ -118,25 +116,6 @@ bool Interpolation::cross_arcs(const Direction& place, Corners& corners) const {
       corners = {on_arc[1], on_arc[0], w};
   }
   return true;
-}
-
-/// A triangle near the place, the smallest corner first. True if the search says that it contains the place.
-bool Interpolation::search(const Direction& place, std::int32_t& near, Corners& corners) const {
-  double b1, b2, b3;
-  const pstripack::Location<std::int32_t> found =
-      pstripack::trfind(near, pstripack::Vector<double>{place.high.x, place.high.y, place.high.z},
-                        mesh_.lists, mesh_.unit, b1, b2, b3);
-  if (found.i1 != 0) near = found.i1;
-  if (found.i3 != 0) {
-    corners = {found.i1, found.i2, found.i3};
-  } else {  // the last triangle of `near`, beside the border if there is one
-    const Reader reader(mesh_.lists);
-    std::int32_t slot = reader.first_slot(near), after = reader.next(slot);
-    while (reader.next(after) != reader.first_slot(near)) slot = after, after = reader.next(after);
-    corners = {near, reader.neighbour(slot), reader.neighbour(after)};
-  }
-  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-  return found.i3 != 0;
 }
 
 /// The triangle at the arc of the border that is nearest to the place, which sees the arc from `first` on.
@@ -165,30 +144,27 @@ void Interpolation::find_nearest_on_border(const Direction& place, std::int32_t 
   corners = {nearest, reader.neighbour(slot), reader.neighbour(reader.next(slot))};
 }
 
-/// The triangle that contains the place, from one near it; false if the place is outside. One that would be
+/// The triangle that contains the place, from one at `near`; false if the place is outside. One that would be
 /// inside if it were moved by kOnBorder and kRounding has the triangle at the nearest arc of the border.
-bool Interpolation::settle(const Direction& place, std::int32_t& near, Corners& corners,
-                           bool& is_beyond_border) const {
+bool Interpolation::find(const Direction& place, std::int32_t& near, Corners& corners,
+                         bool& is_beyond_border) const {
+  const Reader reader(mesh_.lists);
+  if (near < 1 || near > reader.size()) near = 1;
+  const std::int32_t slot = reader.first_slot(near);
+  corners = {near, reader.neighbour(slot), reader.neighbour(reader.next(slot))};
   is_beyond_border = !cross_arcs(place, corners);
+  near = corners[0];
   if (is_beyond_border) {
     if (first_boundary_node_ == 0) return false;
-    const std::int32_t seen = corners[0];
     const Point &p = place.high, inwards = minus(middle_, p);
     const double step = std::min(kOnBorder + kRounding / std::sqrt(square(inwards)), 0.5);
     const Direction moved =
         pstripack::direction_of({p.x + step * inwards.x, p.y + step * inwards.y, p.z + step * inwards.z});
-    search(moved, near, corners);
     if (!cross_arcs(moved, corners)) return false;
-    find_nearest_on_border(place, seen, corners);
+    find_nearest_on_border(place, near, corners);
   }
   std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
   return true;
-}
-
-bool Interpolation::find(const Direction& place, std::int32_t& near, Corners& corners,
-                         bool& is_beyond_border) const {
-  search(place, near, corners);
-  return settle(place, near, corners, is_beyond_border);
 }
 
 std::size_t Interpolation::corner_at(const Direction& place, const Corners& corners) const {
@@ -199,8 +175,15 @@ std::size_t Interpolation::corner_at(const Direction& place, const Corners& corn
   return k;
 }
 
-std::array<Direction, 3> Interpolation::directions(const Corners& corners) const {
-  return {mesh_.direction(corners[0]), mesh_.direction(corners[1]), mesh_.direction(corners[2])};
+/// The weights of the corners of the triangle that contains the place.
+void Interpolation::weigh(const Direction& place, const Corners& corners, double (&weights)[3]) const {
+  if (const std::size_t node = corner_at(place, corners); node < 3) {
+    for (std::size_t k = 0; k < 3; ++k) weights[k] = k == node ? 1 : 0;
+    return;
+  }
+  const Direction at[] = {mesh_.direction(corners[0]), mesh_.direction(corners[1]),
+                          mesh_.direction(corners[2])};
+  barycentric_weights(place, {&at[0], &at[1], &at[2]}, weights);
 }
 
 /// The corners with weights as shares.
@@ -215,20 +198,8 @@ bool Interpolation::barycentric(const Point& p, std::int32_t& near, Corners& cor
                                 double (&weights)[3]) const {
   const Direction place = pstripack::direction_of(p);
   bool is_beyond_border;
-  if (search(place, near, corners)) {
-    const std::array<Direction, 3> at = directions(corners);
-    if (find_ordinary_determinants(place, pointers(at), weights)) {
-      pstripack::divide_by_sum(weights);
-      return true;
-    }
-  }
-  if (!settle(place, near, corners, is_beyond_border)) return false;
-  if (const std::size_t node = corner_at(place, corners); node < 3) {
-    for (std::size_t k = 0; k < 3; ++k) weights[k] = k == node ? 1 : 0;
-    return true;
-  }
-  const std::array<Direction, 3> at = directions(corners);
-  barycentric_weights(place, pointers(at), weights);
+  if (!find(place, near, corners, is_beyond_border)) return false;
+  weigh(place, corners, weights);
   return true;
 }
 
@@ -288,14 +259,9 @@ bool Interpolation::natural(const Point& p, std::int32_t& near, std::vector<Shar
   Corners corners;
   bool is_beyond_border;
   if (!find(place, near, corners, is_beyond_border)) return false;
-  if (const std::size_t node = corner_at(place, corners); node < 3) {
-    shares.push_back({corners[node], 1});
-    return true;
-  }
-  if (is_beyond_border || !dig(place, corners, nodes, cavity)) {
+  if (is_beyond_border || corner_at(place, corners) < 3 || !dig(place, corners, nodes, cavity)) {
     double weights[3];
-    const std::array<Direction, 3> at = directions(corners);
-    barycentric_weights(place, pointers(at), weights);
+    weigh(place, corners, weights);
     take(corners, weights, shares);
     return true;
   }
@@ -394,10 +360,9 @@ void Interpolation::cubic_shares(const Point& p, const GradientTerms& gradients,
   cubic_terms(p, shares, ways);
   for (std::size_t k = 0; k < ways.size(); ++k) {
     const std::int32_t node = shares[k].node;
-    const auto i = static_cast<std::size_t>(node);
-    for (std::size_t t = gradients.begin[i - 1]; t < gradients.begin[i]; ++t) {
-      const double part = dot(ways[k], gradients.terms[t].part);
-      shares.push_back({gradients.terms[t].node, part});
+    for (const GradientTerm& term : gradients[static_cast<std::size_t>(node) - 1]) {
+      const double part = dot(ways[k], term.part);
+      shares.push_back({term.node, part});
       shares.push_back({node, -part});
     }
   }
@@ -410,21 +375,6 @@ void Interpolation::cubic_shares(const Point& p, const GradientTerms& gradients,
     else
       shares[kept++] = s;
   shares.resize(kept);
-}
-
-double Interpolation::cubic_value(const Point& p, const std::vector<Share>& shares,
-                                  const std::vector<double>& values,
-                                  const std::vector<Point>& gradients) const {
-  if (shares.size() == 1) return values[static_cast<std::size_t>(shares[0].node) - 1];
-  std::vector<Share> terms = shares;
-  std::vector<Point> ways;
-  cubic_terms(p, terms, ways);
-  double sum = 0;
-  for (std::size_t k = 0; k < terms.size(); ++k) {
-    const auto i = static_cast<std::size_t>(terms[k].node) - 1;
-    sum += terms[k].part * values[i] + dot(ways[k], gradients[i]);
-  }
-  return sum;
 }
 
 template <class Use>
@@ -464,10 +414,17 @@ Interpolation::Result Interpolation::values_at(const std::vector<Point>& places,
   result.values.resize(places.size());
   const std::vector<Point> slopes = method == Method::cubic ? gradients(mesh_, values) : std::vector<Point>();
   const auto value_of = [&](std::int32_t node) { return values[static_cast<std::size_t>(node) - 1]; };
-  const auto value_at = [&](const Point& place, const std::vector<Share>& shares) {
+  const auto value_at = [&](const Point& place, std::vector<Share>& shares) {
     if (shares.empty()) return std::numeric_limits<double>::quiet_NaN();
-    if (method == Method::cubic) return cubic_value(place, shares, values, slopes);
     double sum = 0, low = value_of(shares[0].node), high = low;
+    if (method == Method::cubic && shares.size() > 1) {
+      std::vector<Point> ways;
+      cubic_terms(place, shares, ways);
+      for (std::size_t k = 0; k < shares.size(); ++k)
+        sum += shares[k].part * value_of(shares[k].node) +
+               dot(ways[k], slopes[static_cast<std::size_t>(shares[k].node) - 1]);
+      return sum;
+    }
     for (const Share& s : shares) {
       const double v = value_of(s.node);
       sum += s.part * v;
@@ -475,10 +432,9 @@ Interpolation::Result Interpolation::values_at(const std::vector<Point>& places,
     }
     return std::clamp(sum, low, high);  // rounding may exceed the range
   };
-  result.outside =
-      for_each_place(places, method, outside, [&](std::size_t i, const std::vector<Share>& shares) {
-        result.values[i] = value_at(places[i], shares);
-      });
+  result.outside = for_each_place(places, method, outside, [&](std::size_t i, std::vector<Share>& shares) {
+    result.values[i] = value_at(places[i], shares);
+  });
   return result;
 }
 
@@ -497,16 +453,6 @@ files::Weights Interpolation::weights_at(const std::vector<Point>& places, Metho
     all.begin.push_back(all.node.size());
   }
   return all;
-}
-
-Interpolation::Nearest Interpolation::nearest_at(const std::vector<Point>& places) const {
-  Nearest found{std::vector<std::int32_t>(places.size()), std::vector<double>(places.size())};
-  for_each_place(
-      places, Method::nearest, Outside::nearest, [&](std::size_t i, const std::vector<Share>& shares) {
-        found.node[i] = shares[0].node;
-        found.distance[i] = arc_length(mesh_.direction(found.node[i]), pstripack::direction_of(places[i]));
-      });
-  return found;
 }
 
 }  // namespace methods

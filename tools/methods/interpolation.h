@@ -36,6 +36,8 @@ class Interpolation {
   /// `owner` keeps the triangulation alive; without it the triangulation must outlive this object.
   explicit Interpolation(const Triangulated& mesh, std::shared_ptr<const void> owner = nullptr);
 
+  const Triangulated& mesh() const { return mesh_; }
+
   /// The corners of a triangle, counterclockwise, the smallest first.
   using Corners = std::array<std::int32_t, 3>;
   /// The triangle that contains p. False outside the triangles.
@@ -71,9 +73,7 @@ class Interpolation {
   ///     value = (alpha sum w v + beta zeta) / (alpha + beta).
   ///
   /// Its gradient is continuous, and is that of the node at each node. It may leave the range of the values.
-  double cubic_value(const Point& p, const std::vector<Share>& shares, const std::vector<double>& values,
-                     const std::vector<Point>& gradients) const;
-  /// The same as a sum over the shares, which get other parts: part * v + way.g of each.
+  /// The value is the sum over the shares, which get other parts, of part * v + way.g.
   void cubic_terms(const Point& p, std::vector<Share>& shares, std::vector<Point>& ways) const;
   /// The same with g as sums of values: the shares of more nodes, one for each in increasing order.
   void cubic_shares(const Point& p, const GradientTerms& gradients, std::vector<Share>& shares) const;
@@ -86,29 +86,21 @@ class Interpolation {
     std::size_t outside = 0;
   };
   /// The value at each place. Any number of threads gives the same bits. Linear and natural: within the range
-  /// of the contributing nodes. Cubic: see cubic_value.
+  /// of the contributing nodes. Cubic: see cubic_terms.
   Result values_at(const std::vector<Point>& places, const std::vector<double>& values, Method method,
                    Outside outside) const;
   /// The shares of each place. A value is their sum of products in their order; values_at differs only where
   /// rounding has left the range of the nodes, and by rounding for `cubic`.
   files::Weights weights_at(const std::vector<Point>& places, Method method, Outside outside) const;
 
-  struct Nearest {
-    std::vector<std::int32_t> node;  ///< from 1
-    std::vector<double> distance;    ///< in radians
-  };
-  Nearest nearest_at(const std::vector<Point>& places) const;
-
  private:
   using Direction = pstripack::Direction;
   bool find(const Direction& place, std::int32_t& near, Corners& corners, bool& is_beyond_border) const;
-  bool search(const Direction& place, std::int32_t& near, Corners& corners) const;
-  bool settle(const Direction& place, std::int32_t& near, Corners& corners, bool& is_beyond_border) const;
   void find_nearest_on_border(const Direction& place, std::int32_t first, Corners& corners) const;
   int side_of_arc(std::int32_t a, std::int32_t b, const Direction& place) const;
   bool cross_arcs(const Direction& place, Corners& corners) const;
+  void weigh(const Direction& place, const Corners& corners, double (&weights)[3]) const;
   static void take(const Corners& corners, const double (&weights)[3], std::vector<Share>& shares);
-  std::array<Direction, 3> directions(const Corners& corners) const;
   /// The corner that the place is; 3: none.
   std::size_t corner_at(const Direction& place, const Corners& corners) const;
   bool dig(const Direction& place, const Corners& corners, std::vector<std::int32_t>& nodes,

@@ -2,9 +2,7 @@
 // The triangulation that interpolation works on: of a file's nodes, or of arrays of a Python program.
 
 #include <cstdint>
-#include <vector>
 
-#include "base/parallel_for.h"
 #include "geometry/measures.h"
 #include "lists/adjacency_lists.h"
 #include "stripack/expressions.h"
@@ -30,16 +28,5 @@ struct Triangulated {
     return {nodes.x[i], nodes.y[i], nodes.z[i]};
   }
 };
-
-/// The directions of all nodes.
-inline std::vector<pstripack::Direction> directions_of(const Triangulated& mesh) {
-  std::vector<pstripack::Direction> directions(mesh.lists.n);
-  pstripack::parallel_pieces(directions.size(), pstripack::threads_for(directions.size()),
-                             [&](std::size_t first, std::size_t last, int) {
-                               for (std::size_t i = first; i < last; ++i)
-                                 directions[i] = mesh.direction(static_cast<std::int32_t>(i) + 1);
-                             });
-  return directions;
-}
 
 }  // namespace methods

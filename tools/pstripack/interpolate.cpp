@@ -131,15 +131,17 @@ files::Nodes read_values(Options& options) {
 /// The columns of the nearest node of each place.
 files::Columns nearest_columns(const Interpolation& interpolation, const files::Nodes& nodes,
                                const std::vector<files::Point>& places) {
-  Interpolation::Nearest nearest = interpolation.nearest_at(places);
-  std::vector<double> numbers;
-  for (const std::int32_t node : nearest.node)
-    numbers.push_back(static_cast<double>(nodes.number(static_cast<std::size_t>(node) - 1)));
-  for (double& d : nearest.distance) d *= files::kEarthRadius;
+  const files::Weights nearest = interpolation.weights_at(places, Interpolation::Method::nearest, {});
+  std::vector<double> numbers, km;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto node = static_cast<std::size_t>(nearest.node[i]) - 1;
+    numbers.push_back(static_cast<double>(nodes.number(node)));
+    km.push_back(files::kEarthRadius *
+                 arc_length(pstripack::direction_of(nodes.points[node]), pstripack::direction_of(places[i])));
+  }
   return {files::whole_numbers("nearest_node", "number of the nearest node in the input, from 1",
                                std::move(numbers)),
-          {"nearest_km", "distance to the nearest node on a sphere of radius 6371 km", "km",
-           std::move(nearest.distance)}};
+          {"nearest_km", "distance to the nearest node on a sphere of radius 6371 km", "km", std::move(km)}};
 }
 
 /// Reads the places with the columns of their file, and x y z if these were given.
@@ -189,9 +191,9 @@ void interpolate(Options& options) {
         fmt::format("{}: more than {} places: divide the file", options.points, kMostPlaces));
   const Interpolation interpolation = progress.step("triangulating", [&] {
     try {
-      const auto mesh = std::make_shared<const methods::TriangulatedNodes>(nodes.points);
-      tell_near_nodes(nodes, files::near_neighbours(mesh->view().lists, nodes.points, files::kMillimetre));
-      return Interpolation(mesh->view(), mesh);
+      Interpolation made = methods::interpolation_between(nodes.points);
+      tell_near_nodes(nodes, files::near_neighbours(made.mesh().lists, nodes.points, files::kMillimetre));
+      return made;
     } catch (const files::NoMesh& e) {
       throw no_mesh_of(nodes, e);
     }

@@ -73,11 +73,7 @@ Vector exact(const Points& nodes, std::int32_t node) {
 std::vector<std::int32_t> ring_of(const files::Mesh& mesh, std::int32_t node) {
   const pstripack::ListReader<std::int32_t> reader(mesh.lists());
   std::vector<std::int32_t> ring;
-  std::int32_t slot = reader.last_slot(node);
-  do {
-    slot = reader.next(slot);
-    ring.push_back(reader.neighbour(slot));
-  } while (slot != reader.last_slot(node));
+  reader.for_each_neighbour(node, [&](std::int32_t neighbour) { ring.push_back(neighbour); });
   return ring;
 }
 
@@ -159,7 +155,7 @@ TEST(accuracy, of_gradients) {
     std::vector<double> values;
     for (const Point& node : nodes)
       values.push_back(static_cast<double>(Real(dot(slope, many_digits::direction(node) - p))));
-    const Point found = gradients(TriangulatedNodes(nodes).view(), values)[centre];
+    const Point found = gradients(interpolation_between(nodes).mesh(), values)[centre];
     const Vector difference = many_digits::vector(found) - slope;
     report("gradient", c, many_digits::error(many_digits::length(difference), 0, many_digits::length(slope)),
            1000);
