@@ -16,14 +16,9 @@
 #include "point_sets.h"
 
 namespace methods {
-namespace {
-
-using files::Point;
 
 using files::kDegree;
-using files::kPi;
-
-}  // namespace
+using files::Point;
 
 std::unique_ptr<Density> density_of(const std::string& formula) {
   if (formula == "constant") return std::make_unique<pstripack::scvt::ConstantDensity>();

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <vector>
 
-#include "base/parallel_for.h"
 #include "files/limited_area.h"
 #include "geometry/measures.h"
 #include "scvt/cells.h"
+#include "stripack/voronoi.h"
 
 namespace methods {
 namespace {
@@ -33,31 +33,14 @@ Direction at(const Directions& directions, std::size_t i) {
   return direction_of(directions, static_cast<pstripack::index_t>(i));
 }
 
-std::vector<double> areas_of_cells(const NeighbourLists& stars, const Directions& directions) {
-  std::vector<double> areas(stars.count);
-  const int threads = pstripack::threads_for(10 * areas.size());
-  pstripack::ErrorsOfThreads errors(static_cast<std::size_t>(threads));
-  pstripack::parallel_pieces(areas.size(), threads, [&](std::size_t first, std::size_t last, int piece) {
-    errors.keep(static_cast<std::size_t>(piece), [&] {
-      std::vector<Direction> ring;
-      for (std::size_t i = first; i < last; ++i) {
-        ring.clear();
-        around(stars, i, [&](std::size_t, std::size_t to) { ring.push_back(at(directions, to)); });
-        areas[i] = cell_area(at(directions, i), ring.data(), ring.size());
-      }
-    });
-  });
-  errors.rethrow();
-  return areas;
-}
-
 }  // namespace
 
 Quality quality_of(const files::Mesh& mesh) {
   if (mesh.has_boundary()) throw files::NoMesh("the nodes lie in one hemisphere");
   const NeighbourLists stars{mesh.points.size(), mesh.lend.data(), mesh.list.data()};
   const Directions directions(mesh.points.data(), mesh.points.size());
-  const std::vector<double> areas = areas_of_cells(stars, directions);
+  std::vector<double> areas(stars.count);
+  if (!cell_areas(mesh.lists(), directions, areas.data())) throw files::NoMesh("the lists are broken");
   const auto is_kept = [&](std::size_t i) {
     return mesh.layers.empty() || mesh.layers[i] != files::kLeftOut;
   };

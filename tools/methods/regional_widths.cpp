@@ -47,21 +47,6 @@ double half_of_two(const std::vector<double>& ticks, std::size_t i) {
   return (ticks[std::min(i + 1, ticks.size() - 1)] - ticks[i > 0 ? i - 1 : 0]) / 2;
 }
 
-/// The mirror image at the plane between two places: exchanges them. It is its own inverse.
-class Mirror {
- public:
-  Mirror(const Point& a, const Point& b) : across_(minus(a, b)), square_(dot(across_, across_)) {}
-  Point operator()(const Point& p) const {
-    if (!(square_ > 1e-20)) return p;
-    const double part = 2 * dot(across_, p) / square_;
-    return {p.x - part * across_.x, p.y - part * across_.y, p.z - part * across_.z};
-  }
-
- private:
-  Point across_;
-  double square_;
-};
-
 /// 1 within a distance from a place, where few cells need a table; elsewhere another density.
 std::unique_ptr<Density> one_near(const Point& place, double distance, std::unique_ptr<Density> other) {
   return std::make_unique<DensityBy>(
@@ -101,7 +86,14 @@ double reach_of_least(const Table& table, const Point& place, double diagonal) {
 
 std::vector<Point> front_around(const Point& centre, std::size_t n, const Density& density) {
   const double third = 1 / std::sqrt(3.0);
-  const Mirror mirror(centre, {third, third, third});  // the face of (0, 1, g), (1, g, 0), (g, 0, 1)
+  // The mirror image at the plane between the centre and the face of (0, 1, g), (1, g, 0), (g, 0, 1), which
+  // exchanges them, and is its own inverse.
+  const Point across = minus(centre, {third, third, third});
+  const double square = dot(across, across);
+  const auto mirror = [&](const Point& p) {
+    const double part = square > 1e-20 ? 2 * dot(across, p) / square : 0;
+    return Point{p.x - part * across.x, p.y - part * across.y, p.z - part * across.z};
+  };
   const DensityBy mirrored([&](std::size_t count, const Point* p, double* value) {
     std::vector<Point> places(p, p + count);
     for (Point& place : places) place = mirror(place);

@@ -208,10 +208,11 @@ WidthFormula::WidthFormula(const std::string& text) : is_band_(text.rfind("band:
     fail(is_band_ ? "expected five numbers: INNER,OUTER,RADIUS,TRANSITION,LAT"
                   : "expected six numbers: INNER,OUTER,RADIUS,TRANSITION,LON,LAT");
   inner_ = numbers[0], outer_ = numbers[1], radius_ = numbers[2], transition_ = numbers[3];
-  lon_ = numbers[4], lat_ = numbers.back();
+  lat_ = numbers.back();
   if (!(inner_ > 0 && outer_ > 0)) fail("INNER and OUTER must be above 0");
   if (!(radius_ >= 0 && transition_ >= 0)) fail("RADIUS and TRANSITION must not be negative");
   if (!(std::fabs(lat_) <= 90)) fail("LAT is beyond the pole");
+  centre_ = point_sets::from_degrees(numbers[4], lat_);
 }
 
 bool WidthFormula::limit(double gradient) {
@@ -228,18 +229,11 @@ double WidthFormula::width(double distance) const {
   return t >= 1 ? outer_ : inner_ + (outer_ - inner_) * t * t * (3 - 2 * t);
 }
 
-void WidthFormula::at(std::size_t n, const Point* p, double radius, double* width) const {
-  const Point centre = point_sets::from_degrees(lon_, lat_);
-  for (std::size_t i = 0; i < n; ++i) {
-    double distance;  // in radians
-    if (is_band_) {
-      distance = std::fabs(std::atan2(p[i].z, std::sqrt(p[i].x * p[i].x + p[i].y * p[i].y)) - lat_ * kDegree);
-    } else {
-      const Point apart = minus(p[i], centre), sum{p[i].x + centre.x, p[i].y + centre.y, p[i].z + centre.z};
-      distance = 2 * std::atan2(std::sqrt(dot(apart, apart)), std::sqrt(dot(sum, sum)));
-    }
-    width[i] = this->width(radius * distance);
-  }
+double WidthFormula::at(const Point& p, double radius) const {
+  if (is_band_)
+    return width(radius * std::fabs(std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y)) - lat_ * kDegree));
+  const Point apart = minus(p, centre_), sum{p.x + centre_.x, p.y + centre_.y, p.z + centre_.z};
+  return width(radius * (2 * std::atan2(std::sqrt(dot(apart, apart)), std::sqrt(dot(sum, sum)))));
 }
 
 Widths WidthFormula::widths(double radius) const {
@@ -264,7 +258,7 @@ Widths WidthFormula::widths(double radius) const {
     }
   return {density_of_widths(least(),
                             [formula = *this, radius](std::size_t n, const Point* p, double* width) {
-                              formula.at(n, p, radius, width);
+                              for (std::size_t i = 0; i < n; ++i) width[i] = formula.at(p[i], radius);
                             }),
           least(), cells};
 }
@@ -321,13 +315,10 @@ Table widths_of_regions(const std::vector<files::WidthRegion>& regions, const Wi
   for (const files::WidthRegion& region : regions) least = std::min(least, region.width);
   Table t = grid_for(least, radius);
   const std::size_t rows = t.lat.size(), columns = t.lon.size() - 1;
-  for (std::size_t r = 0; r < rows; ++r) {
-    std::vector<Point> places;
-    for (const double lon : t.lon) places.push_back(point_sets::from_degrees(lon, t.lat[r]));
-    std::vector<double> widths(places.size());
-    elsewhere.at(places.size(), places.data(), radius, widths.data());
-    std::copy(widths.begin(), widths.end(), &t.values[r * (columns + 1)]);
-  }
+  float* next = t.values.data();
+  for (const double lat : t.lat)
+    for (const double lon : t.lon)
+      *next++ = static_cast<float>(elsewhere.at(point_sets::from_degrees(lon, lat), radius));
 
   // Wider regions first: narrower ones cut into them.
   std::vector<const files::WidthRegion*> order;

@@ -42,12 +42,13 @@ class WidthFormula {
   bool is_one_width() const { return inner_ == outer_; }
   double least() const { return std::min(inner_, outer_); }
   double most() const { return std::max(inner_, outer_); }
-  /// The widths at unit vectors.
-  void at(std::size_t n, const files::Point* p, double radius, double* width) const;
+  /// The width at a unit vector.
+  double at(const files::Point& p, double radius) const;
 
  private:
   bool is_band_ = false;
-  double inner_ = 0, outer_ = 0, radius_ = 0, transition_ = 0, lon_ = 0, lat_ = 0;
+  double inner_ = 0, outer_ = 0, radius_ = 0, transition_ = 0, lat_ = 0;
+  files::Point centre_{0, 0, 0};
 };
 
 /// Widths by latitude that have a name: those of E3SM's ocean meshes ec60to30 and rrs18to6, by the formulas

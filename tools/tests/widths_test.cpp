@@ -35,6 +35,18 @@ TableOf<Value> table(const files::Grid& grid, const Width& width) {
   return table_of<Value>(grid, km);
 }
 
+/// Of a place in degrees.
+double width_at(const Widths& widths, double lon, double lat) {
+  return widths.least / std::sqrt(std::sqrt(widths.density->at(point_sets::from_degrees(lon, lat))));
+}
+double width_at(const GridValues<float>& widths, double lon, double lat) {
+  const Point p = point_sets::from_degrees(lon, lat);
+  double value = 0;
+  widths.at(1, &p, &value);
+  return value;
+}
+constexpr double km = 1 / 6371.0 / kDegree;  // in degrees
+
 TEST(widths, give_their_density_and_number_of_cells) {
   // w = 60 (2 + z): the integral of 4 pi R^2 / (sqrt(3)/2 60^2) (1/2) int_-1^1 dz / (2 + z)^2, which is 1/3.
   const files::Grid grid{ticks(-180, 5, 73), ticks(-90, 0.5, 361)};
@@ -139,38 +151,31 @@ TEST(limit_gradient, changes_nothing_that_is_flat_enough_and_says_what_it_change
 }
 
 TEST(widths_of_name, are_those_of_mpas_tools) {
-  const auto width = [](const Widths& widths, double lat) {
-    return widths.least / std::sqrt(std::sqrt(widths.density->at(point_sets::from_degrees(77, lat))));
-  };
   const Widths ec = widths_of(methods::widths_of_name("ec60to30"), 6371.22);
-  EXPECT_NEAR(width(ec, 0), 30.047244527610236, 1e-5);
-  EXPECT_NEAR(width(ec, -15), 35.13957616457637, 1e-5);
-  EXPECT_NEAR(width(ec, 73), 40.4976691150104, 1e-5);
+  EXPECT_NEAR(width_at(ec, 77, 0), 30.047244527610236, 1e-5);
+  EXPECT_NEAR(width_at(ec, 77, -15), 35.13957616457637, 1e-5);
+  EXPECT_NEAR(width_at(ec, 77, 73), 40.4976691150104, 1e-5);
   EXPECT_NEAR(ec.cells, 326958, 3);
   const Widths rrs = widths_of(methods::widths_of_name("rrs18to6"), 6371.22);
-  EXPECT_NEAR(width(rrs, 15), 16.671279447372207, 1e-5);
-  EXPECT_NEAR(width(rrs, -90), 6, 1e-5);
+  EXPECT_NEAR(width_at(rrs, 77, 15), 16.671279447372207, 1e-5);
+  EXPECT_NEAR(width_at(rrs, 77, -90), 6, 1e-5);
   EXPECT_NEAR(rrs.cells, 6069837, 60);
   EXPECT_TRUE(methods::widths_of_name("ec30to60").values.empty());
 }
 
 TEST(width_formula, is_as_documented) {
-  const double km = 1 / 6371.0 / kDegree;  // in degrees
   const Widths disc = WidthFormula("disc:10,120,500,1000,20,-30").widths(6371);
-  const auto width = [](const Widths& widths, double lon, double lat) {
-    return widths.least / std::sqrt(std::sqrt(widths.density->at(point_sets::from_degrees(lon, lat))));
-  };
   EXPECT_DOUBLE_EQ(disc.least, 10);
-  EXPECT_NEAR(width(disc, 20, -30), 10, 1e-12);
-  EXPECT_NEAR(width(disc, 20, -30 + 499 * km), 10, 1e-12);
-  EXPECT_NEAR(width(disc, 20, -30 + 1000 * km), 65, 1e-6);
-  EXPECT_NEAR(width(disc, 20, -30 - 750 * km), 10 + 110 * 0.15625, 1e-6);
-  EXPECT_NEAR(width(disc, 20, -30 - 1501 * km), 120, 1e-9);
-  EXPECT_NEAR(width(disc, -160, 30), 120, 1e-9);
+  EXPECT_NEAR(width_at(disc, 20, -30), 10, 1e-12);
+  EXPECT_NEAR(width_at(disc, 20, -30 + 499 * km), 10, 1e-12);
+  EXPECT_NEAR(width_at(disc, 20, -30 + 1000 * km), 65, 1e-6);
+  EXPECT_NEAR(width_at(disc, 20, -30 - 750 * km), 10 + 110 * 0.15625, 1e-6);
+  EXPECT_NEAR(width_at(disc, 20, -30 - 1501 * km), 120, 1e-9);
+  EXPECT_NEAR(width_at(disc, -160, 30), 120, 1e-9);
   const Widths band = WidthFormula("band:30,60,1000,500,10").widths(6371);
-  EXPECT_NEAR(width(band, 77, 10 - 999 * km), 30, 1e-9);
-  EXPECT_NEAR(width(band, 77, 10 + 1250 * km), 45, 1e-6);
-  EXPECT_NEAR(width(band, 77, -90), 60, 1e-9);
+  EXPECT_NEAR(width_at(band, 77, 10 - 999 * km), 30, 1e-9);
+  EXPECT_NEAR(width_at(band, 77, 10 + 1250 * km), 45, 1e-6);
+  EXPECT_NEAR(width_at(band, 77, -90), 60, 1e-9);
   // Number of cells: without transition a cap, and a zone.
   const double whole = cells_of_width(1, 6371), cap = (1 - std::cos(500 / 6371.0)) / 2;
   EXPECT_NEAR(
@@ -183,7 +188,7 @@ TEST(width_formula, is_as_documented) {
   // With one: the same widths on a grid.
   const files::Grid grid{ticks(-180, 0.5, 721), ticks(-90, 0.5, 361)};
   for (const Widths* const widths : {&disc, &band}) {
-    const Table t = table(grid, [&](double lon, double lat) { return width(*widths, lon, lat); });
+    const Table t = table(grid, [&](double lon, double lat) { return width_at(*widths, lon, lat); });
     EXPECT_NEAR(widths_of(t, 6371).cells / widths->cells, 1, 4e-3);
   }
   for (const char* const formula :
@@ -216,19 +221,11 @@ files::WidthRegion region(double width, double transition,
   return {{1, {}, std::move(rings)}, width, transition};
 }
 
-double width_at(const GridValues<float>& widths, double lon, double lat) {  // of a place in degrees
-  const Point p = point_sets::from_degrees(lon, lat);
-  double value = 0;
-  widths.at(1, &p, &value);
-  return value;
-}
-
 TEST(widths_of_regions, change_over_the_transitions_and_hold_holes_datelines_and_poles) {
   const auto box = [](double west, double south, double east, double north) {
     return std::vector<std::pair<double, double>>{
         {west, south}, {east, south}, {east, north}, {west, north}, {west, south}};
   };
-  const double km = 1 / 6371.0 / kDegree;  // in degrees
   // Narrower, with a hole; across the dateline; a cap with the pole; wider.
   const Table t =
       widths_of_regions({region(30, 1000, {box(0, -20, 40, 20), box(10, -10, 30, 10)}),
@@ -260,7 +257,6 @@ TEST(widths_of_distance, grow_from_lines_also_across_the_dateline_but_not_from_w
                          WidthDistance("a:b.json:50:250:1000"), 6371);
   const GridValues widths(t);
   const auto width = [&](double lon, double lat) { return width_at(widths, lon, lat); };
-  const double km = 1 / 6371.0 / kDegree;  // in degrees
   for (const double lon : {171.0, 179.9, -180.0, -171.0}) EXPECT_NEAR(width(lon, 0), 50, 0.2 * 26);
   EXPECT_NEAR(width(180, 500 * km), 150, 2);
   EXPECT_NEAR(width(-170 + 500 * km, 0), 150, 2);
@@ -274,7 +270,6 @@ TEST(widths_of_distance, grow_from_lines_also_across_the_dateline_but_not_from_w
 }
 
 TEST(widths_in, are_those_asked_for_in_the_area_and_ten_widths_around_it_then_grow) {
-  const double km = 1 / 6371.0 / kDegree;  // in degrees
   // The disc holds neither pole, and crosses the dateline.
   const files::LimitedArea disc = files::circle_area("disc", 170, 80, 1000 / 6371.0),
                            cap = files::circle_area("cap", 0, 90, 2000 / 6371.0),
@@ -288,8 +283,7 @@ TEST(widths_in, are_those_asked_for_in_the_area_and_ten_widths_around_it_then_gr
        {Rim{disc, 170, 80 - 1000 * km, -1}, {cap, 33, 90 - 2000 * km, -1}, {box, 0, 15, 1}}) {
     const RegionalWidths regional = widths_in(area, WidthFormula("20").widths(6371), 0.2, 6371);
     const auto width = [&, lon = lon, lat = lat](double degrees) {
-      const double density = regional.widths.density->at(point_sets::from_degrees(lon, lat + degrees));
-      return regional.widths.least / std::sqrt(std::sqrt(density));
+      return width_at(regional.widths, lon, lat + degrees);
     };
     for (double inside = -190; inside <= 200; inside += 10)
       EXPECT_NEAR(width(towards * inside * km), 20, 1e-9) << area.name;
@@ -315,9 +309,7 @@ TEST(widths_in, are_those_asked_for_in_the_area_and_ten_widths_around_it_then_gr
   EXPECT_EQ(widths_in(box, wide, 0.2, 6371).widths.least, 60);
   const RegionalWidths steep =
       widths_in(box, WidthFormula("disc:20,60,500,1000,0,0").widths(6371), 0.2, 6371);
-  EXPECT_NEAR(steep.widths.least /
-                  std::sqrt(std::sqrt(steep.widths.density->at(point_sets::from_degrees(0, 1000 * km)))),
-              40, 0.1);
+  EXPECT_NEAR(width_at(steep.widths, 0, 1000 * km), 40, 0.1);
   EXPECT_THROW(
       widths_in(files::circle_area("small", 0, 0, 5 / 6371.0), WidthFormula("20").widths(6371), 0.2, 6371),
       std::runtime_error);
