@@ -25,11 +25,6 @@ std::string viridis(double t) {
   return text;
 }
 
-std::string colour_of_degree(int degree) {
-  constexpr const char* kColours[] = {"#2166ac", "#92c5de", "#f7f7f7", "#f4a582", "#b2182b"};
-  return kColours[std::clamp(degree, 4, 8) - 4];
-}
-
 std::vector<std::string> distinct_colours(const std::vector<std::set<std::size_t>>& beside) {
   std::vector<std::string> palette(kCategories.begin(), kCategories.end()), colours(beside.size());
   palette.emplace_back(kOtherWords);

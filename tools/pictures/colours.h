@@ -12,9 +12,6 @@ namespace pictures {
 /// Viridis (van der Walt & Smith 2015), whose lightness grows in equal steps. t: 0 to 1.
 std::string viridis(double t);
 
-/// White for six neighbours, blue for fewer, red for more; all below 4 or above 8 look like 4 and 8.
-std::string colour_of_degree(int degree);
-
 /// Colours of Okabe & Ito, which colour-blind readers can distinguish.
 constexpr const char* kVermilion = "#d55e00";
 

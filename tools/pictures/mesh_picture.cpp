@@ -299,6 +299,11 @@ class MeshPicture {
     shade_by_numbers(means, title, column->units);
   }
 
+  void add_face(std::size_t shade) {
+    shading_.of_face.push_back(shade);
+    ++shading_.shades[shade].count;
+  }
+
   /// The most frequent words have a colour each; all others share one.
   void shade_by_words(const std::vector<std::string>& words, const std::string& title) {
     if (options_.what != What::cells)
@@ -307,36 +312,32 @@ class MeshPicture {
       throw std::runtime_error(fmt::format("{} is a column of words: it has no --range", options_.value));
     std::map<std::string, std::size_t> counts;
     for (const std::string& word : words) ++counts[word];
-    const Shade missing{kNoColour, "no value", counts[""]};
     counts.erase("");
     std::vector<std::pair<std::string, std::size_t>> sorted(counts.begin(), counts.end());
     std::stable_sort(sorted.begin(), sorted.end(),
                      [](const auto& a, const auto& b) { return a.second > b.second; });
     const std::size_t coloured = std::min(sorted.size(), kCategories.size());
     std::map<std::string, std::size_t> shade_of{{"", coloured + 1}};
-    Shade others{kOtherWords, fmt::format("{} others", grouped(sorted.size() - coloured))};
     for (std::size_t i = 0; i < sorted.size(); ++i) {
-      const auto& [word, count] = sorted[i];
-      shade_of[word] = std::min(i, coloured);
-      if (i < coloured)
-        shading_.shades.push_back({kCategories[i], word, count});
-      else
-        others.count += count;
+      shade_of[sorted[i].first] = std::min(i, coloured);
+      if (i < coloured) shading_.shades.push_back({kCategories[i], sorted[i].first});
     }
-    shading_.shades.push_back(others);
-    shading_.shades.push_back(missing);
-    for (const std::string& word : words) shading_.of_face.push_back(shade_of[word]);
+    shading_.shades.push_back({kOtherWords, fmt::format("{} others", grouped(sorted.size() - coloured))});
+    shading_.shades.push_back({kNoColour, "no value"});
+    for (const std::string& word : words) add_face(shade_of[word]);
     shading_.title = title + kHowMany;
   }
 
   void shade_by_degree() {
-    constexpr const char* kLabels[] = {"4 or fewer", "5", "6", "7", "8 or more"};
-    for (int degree = 4; degree <= 8; ++degree)
-      shading_.shades.push_back({colour_of_degree(degree), kLabels[degree - 4]});
+    // White for six neighbours, blue for fewer, red for more.
+    shading_.shades = {{"#2166ac", "4 or fewer"},
+                       {"#92c5de", "5"},
+                       {"#f7f7f7", "6"},
+                       {"#f4a582", "7"},
+                       {"#b2182b", "8 or more"}};
     for (std::int32_t node = 1; node <= reader_.size(); ++node) {
       const std::int32_t degree = pstripack::nbcnt(reader_.last_slot(node), mesh_.lptr.data());
-      shading_.of_face.push_back(static_cast<std::size_t>(std::clamp(degree, 4, 8) - 4));
-      ++shading_.shades[shading_.of_face.back()].count;
+      add_face(static_cast<std::size_t>(std::clamp(degree, 4, 8) - 4));
     }
     shading_.title = std::string("neighbours of a node") + kHowMany;
   }

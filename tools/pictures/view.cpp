@@ -1,6 +1,7 @@
 #include "pictures/view.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -73,34 +74,33 @@ std::string number(double degrees, int decimals) {
 /// The equal longitude that is nearest to `near`.
 double turned_to(double lon, double near) { return lon + 360 * std::round((near - lon) / 360); }
 
-}  // namespace
-
-Outline clipped_polygon(const Outline& outline, const Frame& frame) {
-  Outline kept = cut(
-      outline, [&](const Place& p) { return p.x - frame.left; }, between);
-  kept = cut(
-      kept, [&](const Place& p) { return frame.right - p.x; }, between);
-  kept = cut(
-      kept, [&](const Place& p) { return p.y - frame.top; }, between);
-  return cut(
-      kept, [&](const Place& p) { return frame.bottom - p.y; }, between);
+/// How far the place is inside the four sides.
+std::array<double, 4> inside(const Place& p, const Frame& frame) {
+  return {p.x - frame.left, frame.right - p.x, p.y - frame.top, frame.bottom - p.y};
 }
 
+/// The part of an outline inside the frame. It follows the frame's border where the outline leaves the frame.
+Outline clipped_polygon(Outline outline, const Frame& frame) {
+  for (std::size_t side = 0; side < 4; ++side) {
+    const auto depth = [&](const Place& p) { return inside(p, frame)[side]; };
+    outline = cut(outline, depth, between);
+  }
+  return outline;
+}
+
+/// The parts of a line in the frame.
 std::vector<Outline> clipped_line(const Outline& line, const Frame& frame) {
   std::vector<Outline> parts;
   bool goes_on = false;  // with the last part
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
     const Place &a = line[i], &b = line[i + 1];
     double from = 0, to = 1;  // Liang & Barsky 1984
-    const auto keep = [&](double at_a, double at_b) {
+    for (std::size_t side = 0; side < 4; ++side) {
+      const double at_a = inside(a, frame)[side], at_b = inside(b, frame)[side];
       if (at_a < 0 && at_b < 0) from = 2;
       if (at_a < 0 && at_b >= 0) from = std::max(from, at_a / (at_a - at_b));
       if (at_a >= 0 && at_b < 0) to = std::min(to, at_a / (at_a - at_b));
-    };
-    keep(a.x - frame.left, b.x - frame.left);
-    keep(frame.right - a.x, frame.right - b.x);
-    keep(a.y - frame.top, b.y - frame.top);
-    keep(frame.bottom - a.y, frame.bottom - b.y);
+    }
     if (from > to) {
       goes_on = false;
       continue;
@@ -111,6 +111,34 @@ std::vector<Outline> clipped_line(const Outline& line, const Frame& frame) {
   }
   return parts;
 }
+
+/// Half of the longitudes of a cap, in degrees.
+double half_width(const Spot& centre, double radius) {
+  if (std::fabs(centre.lat) + radius >= 90) return 180;
+  return files::kRadian * std::asin(point_sets::sin_degrees(radius) / point_sets::cos_degrees(centre.lat));
+}
+
+/// The point where the chord between two turned points on both sides of the limb meets it.
+Point on_limb(const Point& a, const Point& b, double t) {
+  Point p = {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), 0};
+  const double length = std::hypot(p.x, p.y);
+  return {p.x / length, p.y / length, 0};
+}
+
+/// 90 or -90 for a pole, 0 for other points.
+double pole_at(const Point& p) {
+  constexpr double kNear = 1e-9;
+  return std::fabs(p.x) < kNear && std::fabs(p.y) < kNear ? std::copysign(90.0, p.z) : 0;
+}
+
+/// True if the arc from a to b leads through a pole between them.
+bool leads_over_pole(const Point& a, const Point& b) {
+  const Point normal = cross(a, b);
+  // The great circle contains both poles, but the arc from a to b need not.
+  return std::fabs(normal.z) <= 1e-9 * std::sqrt(dot(normal, normal)) && a.x * b.x + a.y * b.y <= 0;
+}
+
+}  // namespace
 
 Spot spot_of(const Point& p) { return {files::longitude(p), files::latitude(p)}; }
 
@@ -123,12 +151,6 @@ std::string name_of_longitude(double lon, int decimals) {
 std::string name_of_latitude(double lat, int decimals) {
   const std::string size = number(lat, decimals);
   return size + "°" + (size == "0" ? "" : lat < 0 ? "S" : "N");
-}
-
-/// Half of the longitudes of a cap, in degrees.
-double half_width(const Spot& centre, double radius) {
-  if (std::fabs(centre.lat) + radius >= 90) return 180;
-  return files::kRadian * std::asin(point_sets::sin_degrees(radius) / point_sets::cos_degrees(centre.lat));
 }
 
 // ---- orthographic -----------------------------------------------------------------------------------------
@@ -172,19 +194,6 @@ void Orthographic::add_arc(const Point& a, const Point& b, Outline& outline, int
   }
 }
 
-namespace {
-
-/// The point where the chord between two turned points on both sides of the limb meets it.
-Point on_limb(const Point& a, const Point& b, double t) {
-  Point p = {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), 0};
-  const double length = std::hypot(p.x, p.y);
-  return {p.x / length, p.y / length, 0};
-}
-
-double in_front(const Point& turned) { return turned.z; }
-
-}  // namespace
-
 // Cut at the limb:
 //
 //        b .---.            a b c is cut to a b p q. The side from p to q runs along the limb,
@@ -195,7 +204,8 @@ double in_front(const Point& turned) { return turned.z; }
 std::vector<Outline> Orthographic::polygon(const std::vector<Point>& corners) const {
   std::vector<Point> all;
   for (const Point& p : corners) all.push_back(turned(p));
-  const std::vector<Point> seen = cut(all, in_front, on_limb);
+  const std::vector<Point> seen = cut(
+      all, [](const Point& p) { return p.z; }, on_limb);
   if (seen.size() < 3) return {};
   Outline outline;
   for (std::size_t i = 0; i < seen.size(); ++i) add_arc(seen[i], seen[(i + 1) % seen.size()], outline);
@@ -241,23 +251,6 @@ void LonLat::fill(const Frame& frame, double squeezed) {
   frame_ = {middle - width / 2, frame.top, middle + width / 2,
             frame.top + per_lat_ * (bounds_.north - bounds_.south)};
 }
-
-namespace {
-
-/// 90 or -90 for a pole, 0 for other points.
-double pole_at(const Point& p) {
-  constexpr double kNear = 1e-9;
-  return std::fabs(p.x) < kNear && std::fabs(p.y) < kNear ? std::copysign(90.0, p.z) : 0;
-}
-
-/// True if the arc from a to b leads through a pole between them.
-bool leads_over_pole(const Point& a, const Point& b) {
-  const Point normal = cross(a, b);
-  // The great circle contains both poles, but the arc from a to b need not.
-  return std::fabs(normal.z) <= 1e-9 * std::sqrt(dot(normal, normal)) && a.x * b.x + a.y * b.y <= 0;
-}
-
-}  // namespace
 
 /// Appends the points of the arc, without b, between which it looks straight.
 void LonLat::add_arc(const Point& a, const Point& b, std::vector<Point>& points, int depth) const {

@@ -22,11 +22,6 @@ struct Frame {
   double height() const { return bottom - top; }
 };
 
-/// The part of an outline inside the frame. It follows the frame's border where the outline leaves the frame.
-Outline clipped_polygon(const Outline& outline, const Frame& frame);
-/// The parts of a line in the frame.
-std::vector<Outline> clipped_line(const Outline& line, const Frame& frame);
-
 /// Degrees.
 struct Spot {
   double lon, lat;
