@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -121,17 +120,15 @@ void convert(Options& options) {
   add_history(nodes.notes);
   progress.step("writing", [&] {
     if ((files::holds_a_mesh(format) || !options.region.empty()) && has_mesh) {
-      try {
+      if (!nodes.vertices.empty() && !options.region.empty())
+        throw std::runtime_error(nodes.file +
+                                 ": cellsOnVertex has a boundary already: cut the mesh of the sphere");
+      with_nodes(nodes, [&] {
         if (nodes.vertices.empty())
           write_whole(file, options, nodes);
-        else if (!options.region.empty())
-          throw std::runtime_error(nodes.file +
-                                   ": cellsOnVertex has a boundary already: cut the mesh of the sphere");
         else
           write_cut(file, options.output, nodes);
-      } catch (const files::NoMesh& e) {
-        throw std::runtime_error(nodes.file + ": " + e.what());
-      }
+      });
     } else {
       write_nodes(file, format, nodes.points, {nodes.given, nodes.density, nodes.columns, nodes.notes});
     }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -81,16 +80,10 @@ void info(const Options& options) {
   const std::size_t given = nodes.points.size();
   std::vector<files::Duplicate> duplicates;
   const Mesh mesh = progress.step("triangulating", [&] {
-    try {
-      try {
-        return files::triangulate(nodes.points);
-      } catch (const files::CoincidentNodes&) {  // left out below
-      }
+    return with_nodes(nodes, [&] {
       duplicates = files::duplicates(nodes.points);
       return files::triangulate(files::values_at(nodes.points, without(duplicates, given)));
-    } catch (const files::NoMesh& e) {
-      throw std::runtime_error(nodes.file + ": " + e.what());
-    }
+    });
   });
   const Facts f = progress.step("measuring", [&] { return facts_of(mesh); });
   const std::vector<std::size_t> kept = without(duplicates, given);

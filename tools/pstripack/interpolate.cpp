@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -190,13 +189,9 @@ void interpolate(Options& options) {
     throw std::runtime_error(
         fmt::format("{}: more than {} places: divide the file", options.points, kMostPlaces));
   const Interpolation interpolation = progress.step("triangulating", [&] {
-    try {
-      Interpolation made = methods::interpolation_between(nodes.points);
-      tell_near_nodes(nodes, files::near_neighbours(made.mesh().lists, nodes.points, files::kMillimetre));
-      return made;
-    } catch (const files::NoMesh& e) {
-      throw no_mesh_of(nodes, e);
-    }
+    Interpolation made = with_nodes(nodes, [&] { return methods::interpolation_between(nodes.points); });
+    tell_near_nodes(nodes, made.mesh().lists);
+    return made;
   });
   const auto outside =
       options.outside == Outside::nearest ? Interpolation::Outside::nearest : Interpolation::Outside::missing;
@@ -257,23 +252,16 @@ void add_interpolate(CLI::App& app, Command& chosen) {
   CLI::App* const sub = app.add_subcommand(
       "interpolate", "interpolates values at scattered nodes to points or to a longitude-latitude grid");
   const auto options = std::make_shared<Options>();
-  sub->add_option("VALUES", options->input.file, "file of nodes and values; - is stdin")
-      ->required()
-      ->type_name("");
-  sub->add_option(
-         "--variable", options->input.read.variable,
+  option(*sub, "VALUES", options->input.file, "file of nodes and values; - is stdin")->required();
+  option(*sub, "--variable NAME", options->input.read.variable,
          "the value: its name, or in text its column, from 1 [the only one; in text without a header "
-         "the one after the coordinates]")
-      ->type_name("NAME");
-  sub->add_option("--to-points", options->points, "file of points")->type_name("FILE");
-  sub->add_option("--to-grid", options->grid, "points of a grid, for example 180x360")
-      ->type_name("NLATxNLON");
-  sub->add_option("--grid-step", options->step, "the same grid, by the distance of its points")
-      ->type_name("DEGREES")
+         "the one after the coordinates]");
+  option(*sub, "--to-points FILE", options->points, "file of points");
+  option(*sub, "--to-grid NLATxNLON", options->grid, "points of a grid, for example 180x360");
+  option(*sub, "--grid-step DEGREES", options->step, "the same grid, by the distance of its points")
       ->check(number_from(kAbove0, kLargest, "a number of degrees above 0"));
-  sub->add_option("--box", options->box,
-                  "edges: WEST,EAST,SOUTH,NORTH; 170,-170 crosses the dateline [-180,180,-90,90]")
-      ->type_name("DEGREES");
+  option(*sub, "--box DEGREES", options->box,
+         "edges: WEST,EAST,SOUTH,NORTH; 170,-170 crosses the dateline [-180,180,-90,90]");
   add_choice(*sub, "--registration", options->registration,
              {{"cell", Registration::cell}, {"node", Registration::node}},
              "cell: centres of equal cells; node: on the edges of the box and between [cell]");
@@ -293,18 +281,15 @@ void add_interpolate(CLI::App& app, Command& chosen) {
   add_duplicates(*sub, options->input);
   sub->add_flag("--nearest-node", options->nearest_node,
                 "also columns nearest_node, its number in VALUES, and nearest_km, its distance");
-  sub->add_option(
-         "--weights", options->weights,
-         "NetCDF file of the weights as of ESMF_RegridWeightGen: row, col, S; with or without --output")
-      ->type_name("FILE");
-  sub->add_option("-o,--output", options->output, "file to write; - is stdout")->type_name("FILE");
+  option(*sub, "--weights FILE", options->weights,
+         "NetCDF file of the weights as of ESMF_RegridWeightGen: row, col, S; with or without --output");
+  option(*sub, "-o,--output FILE", options->output, "file to write; - is stdout");
   sub->get_option("--nearest-node")->needs("--output");
   for (const char* const of_grid : {"--box", "--registration", "--to-grid", "--grid-step"})
     sub->get_option("--to-points")->excludes(sub->get_option(of_grid));
   sub->get_option("--to-grid")->excludes("--grid-step");
-  sub->add_option("--to", options->to,
-                  "text (lines of lon lat value), csv or netcdf [by the suffix: .txt, .csv, .nc]")
-      ->type_name("WORD")
+  option(*sub, "--to WORD", options->to,
+         "text (lines of lon lat value), csv or netcdf [by the suffix: .txt, .csv, .nc]")
       ->check(one_of({"text", "csv", "netcdf"}));
   sub->footer(
       R"(VALUES is text with `lon lat value` or `x y z value` on each line, a table with a header line, or NetCDF. `nan` and

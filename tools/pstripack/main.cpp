@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <new>
 
 #include "base/parallel_for.h"
@@ -91,8 +90,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.fallthrough();
   app.add_flag("-q,--quiet", global().quiet, "print only errors on stderr");
-  app.add_option("--threads", global().threads, "number of threads [all processors]")
-      ->type_name("NUMBER")
+  option(app, "--threads NUMBER", global().threads, "number of threads [all processors]")
       ->check(CLI::Range(1, 4096).description(""));
   add_serial(app);
   Command chosen;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -77,6 +76,8 @@ std::string suffixes() {
 
 }  // namespace
 
+namespace {
+
 Distance distance_of(const char* option, const std::string& text) {
   const std::size_t unit = text.find_last_not_of("abcdefghijklmnopqrstuvwxyz") + 1;
   constexpr std::pair<const char*, double> kUnits[] = {{"mm", files::kMillimetre},
@@ -96,6 +97,14 @@ Distance distance_of(const char* option, const std::string& text) {
   if (!(value >= 0 && distance.radians < 90 * kDegree))
     throw CLI::ValidationError(option, "'" + text + "': expected a distance from 0 to less than 90deg");
   return distance;
+}
+
+}  // namespace
+
+void add_distance(CLI::App& app, const char* name, Distance& distance, const char* text) {
+  app.add_option_function<std::string>(
+         name, [=, &distance](const std::string& word) { distance = distance_of(name, word); }, text)
+      ->type_name("DISTANCE");
 }
 
 Global& global() {
@@ -179,16 +188,15 @@ files::LimitedArea limited_area_of(const std::string& text, const std::string& s
 
 CLI::Option* add_limited_area(CLI::App& app, std::string& text, std::string& sides) {
   CLI::Option* const region =
-      app.add_option("--region", text,
-                     "keep the cells of a limited area: WEST,EAST,SOUTH,NORTH, circle:KM,LON,LAT, or a file "
-                     "of GeoJSON polygons or of MPAS-Limited-Area, NAME.pts, and 7 layers of cells around "
-                     "it, with their bdyMaskCell")
-          ->type_name("REGION");
+      option(app, "--region REGION", text,
+             "keep the cells of a limited area: WEST,EAST,SOUTH,NORTH, circle:KM,LON,LAT, or a file "
+             "of GeoJSON polygons or of MPAS-Limited-Area, NAME.pts, and 7 layers of cells around "
+             "it, with their bdyMaskCell");
   add_words(app, "--sides", {"map", "great-circle"},
             "sides of the region: map (straight in longitude and latitude) or great-circle, followed as "
             "MPAS-Limited-Area does; always so of NAME.pts [map]",
-            [&sides](const std::string& word) { sides = word; });
-  app.get_option("--sides")->needs(region);
+            [&sides](const std::string& word) { sides = word; })
+      ->needs(region);
   return region;
 }
 
@@ -202,7 +210,7 @@ void keep_area(files::Mesh& mesh, const files::LimitedArea& area) {
 }
 
 void add_input(CLI::App& app, Input& input) {
-  app.add_option("IN", input.file, "file of nodes; - is stdin")->required()->type_name("");
+  option(app, "IN", input.file, "file of nodes; - is stdin")->required();
   add_reading(app, input.read);
   add_skip_missing(app, input.read, "a place");
 }
@@ -216,27 +224,19 @@ void add_duplicates(CLI::App& app, Input& input) {
   add_choice(app, "--duplicates", input.duplicates,
              {{"error", Duplicates::error}, {"first", Duplicates::first}, {"mean", Duplicates::mean}},
              "nodes in the same place: error, first (keep it) or mean (of their values) [error]");
-  app.add_option_function<std::string>(
-         "--duplicates-within",
-         [&input](const std::string& text) { input.within = distance_of("--duplicates-within", text); },
-         "nodes this near are in the same place: 1mm, 0.5m, 2km, 1e-6deg, 1e-8rad [0]")
-      ->type_name("DISTANCE");
-  app.add_option("--list-duplicates", input.list,
-                 "write the nodes that are dropped, and `kept`, the number of the one kept: CSV, or GeoJSON")
-      ->type_name("FILE");
+  add_distance(app, "--duplicates-within", input.within,
+               "nodes this near are in the same place: 1mm, 0.5m, 2km, 1e-6deg, 1e-8rad [0]");
+  option(app, "--list-duplicates FILE", input.list,
+         "write the nodes that are dropped, and `kept`, the number of the one kept: CSV, or GeoJSON");
 }
 
 void add_output(CLI::App& app, Output& output, bool required) {
-  CLI::Option* const option =
-      app.add_option("-o,--output", output.file, "file to write; - is stdout")->type_name("FILE");
-  if (required)
-    option->required();
-  else
-    option->capture_default_str();
+  CLI::Option* const file = option(app, "-o,--output FILE", output.file, "file to write; - is stdout");
+  file->required(required);
+  if (!required) file->capture_default_str();
   std::vector<std::string> names;
   for (const files::FormatEntry& f : files::formats()) names.emplace_back(f.name);
-  app.add_option("--to", output.to, "format, see below [by the suffix of the file]")
-      ->type_name("FORMAT")
+  option(app, "--to FORMAT", output.to, "format, see below [by the suffix of the file]")
       ->check(one_of(names));
   app.footer("Formats and their suffixes:" + suffixes());
 }
@@ -251,8 +251,7 @@ std::function<std::string(const std::string&)> number_from(double low, double hi
 }
 
 CLI::Option* add_radius(CLI::App& app, double& radius, const char* text) {
-  return app.add_option("--radius", radius, text)
-      ->type_name("METRES")
+  return option(app, "--radius METRES", radius, text)
       ->check(number_from(kAbove0, kLargest, "a number of metres above 0"));
 }
 
@@ -400,12 +399,8 @@ void drop_duplicates(Nodes& nodes, const Input& input) {
     throw CLI::ValidationError("--list-duplicates",
                                "lists what --duplicates first or mean drops: say one of them");
   if (!input.drops() && within.radians == 0) return;
-  std::vector<files::Duplicate> duplicates;
-  try {
-    duplicates = duplicates_within(nodes.points, within.radians);
-  } catch (const files::NoMesh& e) {
-    throw no_mesh_of(nodes, e);
-  }
+  const std::vector<files::Duplicate> duplicates =
+      with_nodes(nodes, [&] { return duplicates_within(nodes.points, within.radians); });
   if (!input.list.empty()) list(nodes, duplicates, input.list);
   if (duplicates.empty()) return;
   const bool means = input.duplicates == Duplicates::mean;
@@ -427,7 +422,8 @@ void drop_duplicates(Nodes& nodes, const Input& input) {
                   means ? "; the mean of their values is kept" : ""));
 }
 
-void tell_near_nodes(const Nodes& nodes, const files::NearNeighbours& near) {
+void tell_near_nodes(const Nodes& nodes, const pstripack::ListsView<std::int32_t>& lists) {
+  const files::NearNeighbours near = files::near_neighbours(lists, nodes.points, files::kMillimetre);
   if (near.pairs == 0) return;
   say(fmt::format(
       "{}: {} less than 1 mm apart on the Earth, but not in the same place: {} and {}{}; "
@@ -476,18 +472,14 @@ void write_mesh(const files::OutputFile& file, const Output& output, files::Mesh
 }
 
 files::Mesh triangulate(Nodes& nodes) {
-  try {
-    files::Mesh mesh = files::triangulate(nodes.points);
-    tell_near_nodes(nodes, files::near_neighbours(mesh.lists(), mesh.points, files::kMillimetre));
-    mesh.given = std::move(nodes.given);
-    mesh.density = std::move(nodes.density);
-    mesh.columns = std::move(nodes.columns);
-    mesh.notes = std::move(nodes.notes);
-    mesh.radius = nodes.radius;
-    return mesh;
-  } catch (const files::NoMesh& e) {
-    throw no_mesh_of(nodes, e);
-  }
+  files::Mesh mesh = with_nodes(nodes, [&] { return files::triangulate(nodes.points); });
+  tell_near_nodes(nodes, mesh.lists());
+  mesh.given = std::move(nodes.given);
+  mesh.density = std::move(nodes.density);
+  mesh.columns = std::move(nodes.columns);
+  mesh.notes = std::move(nodes.notes);
+  mesh.radius = nodes.radius;
+  return mesh;
 }
 
 }  // namespace program

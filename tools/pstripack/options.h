@@ -37,8 +37,8 @@ struct Distance {
   double radians = 0;
   std::string text = "";
 };
-/// A number and its unit: 1mm, 2km (on the Earth), 1e-6deg. `option`: for messages.
-Distance distance_of(const char* option, const std::string& text);
+/// Adds an option that is a number and its unit: 1mm, 2km (on the Earth), 1e-6deg.
+void add_distance(CLI::App& app, const char* name, Distance& distance, const char* text);
 
 /// Numbers between separators. `option`: for messages.
 std::vector<double> numbers_in(const std::string& option, const std::string& text, char separator,
@@ -113,7 +113,7 @@ std::vector<std::size_t> without(const std::vector<files::Duplicate>& duplicates
 
 /// Says how many pairs of nodes are within a millimetre of each other: most likely copies of one node that
 /// rounding has moved.
-void tell_near_nodes(const files::Nodes& nodes, const files::NearNeighbours& near);
+void tell_near_nodes(const files::Nodes& nodes, const pstripack::ListsView<std::int32_t>& lists);
 
 /// Adds columns `node` and `line`, number and line of each node in the input, unless the file has such
 /// columns.
@@ -124,6 +124,24 @@ void add_history(files::Notes& notes);
 
 /// The error that names file, nodes and remedy.
 std::runtime_error no_mesh_of(const files::Nodes& nodes, const files::NoMesh& why);
+/// Runs work(), whose NoMesh becomes that error.
+template <class Work>
+auto with_nodes(const files::Nodes& nodes, const Work& work) {
+  try {
+    return work();
+  } catch (const files::NoMesh& e) {
+    throw no_mesh_of(nodes, e);
+  }
+}
+/// Runs work(), whose errors get the name of the file.
+template <class Work>
+auto in_file(const std::string& name, const Work& work) {
+  try {
+    return work();
+  } catch (const std::runtime_error& e) {
+    throw std::runtime_error(name + ": " + e.what());
+  }
+}
 
 /// Writes the mesh as the options say. Tells how many nodes an MPAS mesh leaves out.
 void write_mesh(const files::OutputFile& file, const Output& output, files::Mesh& mesh);

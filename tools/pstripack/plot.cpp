@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -136,26 +135,18 @@ void plot(Options& options) {
   if (wanted.colour == MeshOptions::Colour::value) expect_column(nodes, wanted.value);
   const files::Mesh mesh = progress.step("triangulating", [&] {
     if (nodes.triangles.empty()) return triangulate(nodes);
-    try {
-      files::Mesh drawn = files::mesh_of(nodes.points, nodes.triangles);
-      drawn.columns = std::move(nodes.columns);
-      return drawn;
-    } catch (const files::NoMesh& e) {
-      throw std::runtime_error(nodes.file + ": " + e.what());
-    }
+    files::Mesh drawn = with_nodes(nodes, [&] { return files::mesh_of(nodes.points, nodes.triangles); });
+    drawn.columns = std::move(nodes.columns);
+    return drawn;
   });
   progress.step("drawing", [&] {
     wanted.title = options.title
                        ? *options.title
                        : fmt::format("{}: {}", std::filesystem::path(nodes.file).filename().string(),
                                      what_is_drawn(mesh, wanted.what));
-    std::string picture;
-    try {
-      picture = globe ? globe_page(mesh_globe(mesh, wanted)) : mesh_picture(mesh, wanted);
-    } catch (const std::runtime_error& e) {
-      throw std::runtime_error(nodes.file + ": " + e.what());
-    }
-    write(file, kind, picture);
+    write(file, kind, in_file(nodes.file, [&] {
+            return globe ? globe_page(mesh_globe(mesh, wanted)) : mesh_picture(mesh, wanted);
+          }));
     file.commit();
   });
   progress.finish(fmt::format("{} ({}), {}", counted(nodes.points.size(), "node"), nodes.kind,
@@ -171,40 +162,30 @@ void add_plot(CLI::App& app, Command& chosen) {
   const auto options = std::make_shared<Options>();
   add_input(*sub, options->input);
   add_duplicates(*sub, options->input);
-  sub->add_option("-o,--output", options->file,
-                  "picture to write: FILE.svg or FILE.png, or FILE.html, a globe; - is stdout")
-      ->required()
-      ->type_name("FILE");
-  sub->add_option("--to", options->to, "svg, png or html [by the suffix of the file]")
-      ->type_name("FORMAT")
+  option(*sub, "-o,--output FILE", options->file,
+         "picture to write: FILE.svg or FILE.png, or FILE.html, a globe; - is stdout")
+      ->required();
+  option(*sub, "--to FORMAT", options->to, "svg, png or html [by the suffix of the file]")
       ->check(one_of({"svg", "png", "html"}));
-  sub->add_option("--what", options->what, "triangles, or cells of the Voronoi diagram")
-      ->type_name("WORD")
+  option(*sub, "--what WORD", options->what, "triangles, or cells of the Voronoi diagram")
       ->capture_default_str()
       ->check(one_of({"triangles", "cells"}));
-  sub->add_option("--view", options->view,
-                  "orthographic or lonlat, or with a centre orthographic:LON,LAT [the middle of the nodes]")
-      ->type_name("VIEW");
-  sub->add_option("--zoom", options->mesh.radius, "show this many degrees around the centre [all nodes]")
-      ->type_name("DEGREES")
+  option(*sub, "--view VIEW", options->view,
+         "orthographic or lonlat, or with a centre orthographic:LON,LAT [the middle of the nodes]");
+  option(*sub, "--zoom DEGREES", options->mesh.radius, "show this many degrees around the centre [all nodes]")
       ->check(number_from(1e-6, 180, "a number from 1e-06 to 180"));
-  sub->add_option("--box", options->box,
-                  "show the map of WEST,EAST,SOUTH,NORTH; 170,-170 crosses the dateline")
-      ->type_name("DEGREES");
-  sub->add_option("--colour,--color", options->colour,
-                  "none, area, degree, owner:P, owner:P:stripes or a column of IN, see below")
-      ->type_name("BY")
+  option(*sub, "--box DEGREES", options->box,
+         "show the map of WEST,EAST,SOUTH,NORTH; 170,-170 crosses the dateline");
+  option(*sub, "--colour,--color BY", options->colour,
+         "none, area, degree, owner:P, owner:P:stripes or a column of IN, see below")
       ->capture_default_str();
-  sub->add_option("--range", options->range, "ends of the colour bar [those of the values]")
-      ->type_name("LOW,HIGH");
+  option(*sub, "--range LOW,HIGH", options->range, "ends of the colour bar [those of the values]");
   sub->add_flag("--dots", options->mesh.dots, "also draw the nodes, as dots");
   sub->add_flag("--coasts", options->mesh.coasts,
                 "coast lines of Natural Earth, from Debian's libmagics++-data");
-  sub->add_option("--coast-file", options->mesh.coast_file, "coast lines of this shapefile instead")
-      ->type_name("FILE");
-  sub->add_option("--title", options->title, "title of the picture [file and counts]")->type_name("TEXT");
-  sub->add_option("--width", options->mesh.width, "width of the picture")
-      ->type_name("PIXELS")
+  option(*sub, "--coast-file FILE", options->mesh.coast_file, "coast lines of this shapefile instead");
+  option(*sub, "--title TEXT", options->title, "title of the picture [file and counts]");
+  option(*sub, "--width PIXELS", options->mesh.width, "width of the picture")
       ->capture_default_str()
       ->check(number_from(100, 20000, "a number from 100 to 20000"));
   sub->footer(R"(  pstripack plot mesh.nc -o mesh.svg

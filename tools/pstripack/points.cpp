@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdint>
 #include <stdexcept>
@@ -61,15 +60,12 @@ void write(Options& options) {
 void add_points(CLI::App& app, Command& chosen) {
   CLI::App* const sub = app.add_subcommand("points", "test nodes of many kinds");
   const auto options = std::make_shared<Options>();
-  sub->add_option("NAME", options->name, "family of nodes, see below")->required()->type_name("");
-  sub->add_option("N", options->n, "number of nodes; grids take the nearest number they can have")
+  option(*sub, "NAME", options->name, "family of nodes, see below")->required();
+  option(*sub, "N", options->n, "number of nodes; grids take the nearest number they can have")
       ->required()
-      ->type_name("")
       ->transform(whole_number())
       ->check(CLI::Range(std::size_t{3}, std::size_t{357913943}).description(""));
-  sub->add_option("--seed", options->seed, "seed of random families")
-      ->type_name("NUMBER")
-      ->capture_default_str();
+  option(*sub, "--seed NUMBER", options->seed, "seed of random families")->capture_default_str();
   add_output(*sub, options->output, false);
   sub->footer(families() + sub->get_footer());
   sub->callback([=, &chosen] { chosen = [=] { write(*options); }; });

@@ -12,17 +12,6 @@
 namespace program {
 namespace {
 
-class Alone final : public Ranks {
- public:
-  pstripack::Communicator& communicator() override { return process_; }
-  std::shared_ptr<pstripack::scvt::Evaluator> evaluator(const pstripack::scvt::Density& density) override {
-    return std::make_shared<pstripack::scvt::LocalEvaluator>(density);
-  }
-
- private:
-  pstripack::SingleProcess process_;
-};
-
 /// From the environment that launchers set: Open MPI, MPICH and Intel, Slurm.
 int ranks_of_job() {
   for (const char* const name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"})
@@ -48,7 +37,9 @@ void add_serial(CLI::App& app) {
 int on_rank_0(int, char**, const std::function<int()>& work) { return work(); }
 
 void on_all_ranks(const std::function<void(Ranks&)>& body) {
-  Alone alone;
+  namespace engine = pstripack::scvt;
+  pstripack::SingleProcess process;
+  Ranks alone{process, [](const engine::Density& d) { return std::make_shared<engine::LocalEvaluator>(d); }};
   body(alone);
 }
 

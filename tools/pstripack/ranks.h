@@ -22,12 +22,11 @@ void add_serial(CLI::App& app);
 int on_rank_0(int argc, char** argv, const std::function<int()>& work);
 
 /// All ranks, or this process alone if there is no MPI.
-class Ranks {
- public:
-  virtual ~Ranks() = default;
-  virtual pstripack::Communicator& communicator() = 0;
+struct Ranks {
+  pstripack::Communicator& communicator;
   /// Collective.
-  virtual std::shared_ptr<pstripack::scvt::Evaluator> evaluator(const pstripack::scvt::Density& density) = 0;
+  std::function<std::shared_ptr<pstripack::scvt::Evaluator>(const pstripack::scvt::Density& density)>
+      evaluator;
 };
 
 /// To be called within work(): all ranks run work() up to this call, then body(ranks). body() may throw only

@@ -31,24 +31,17 @@ std::int32_t word_of_rank_0(MpiCommunicator& ranks, std::int32_t word = 0) {
   return word;
 }
 
-class AllRanks final : public Ranks {
- public:
-  explicit AllRanks(MpiCommunicator& ranks) : ranks_(ranks) {}
-  pstripack::Communicator& communicator() override { return ranks_; }
-  std::shared_ptr<engine::Evaluator> evaluator(const engine::Density& density) override {
-    if (ranks_.size() == 1) return std::make_shared<engine::LocalEvaluator>(density);
-    struct WithMesh {
-      WithMesh(MPI_Comm comm, const engine::Density& density) : mesh(comm), evaluator(mesh, density) {}
-      pstripack::DistributedMesh mesh;
-      engine::DistributedEvaluator evaluator;
-    };
-    const auto both = std::make_shared<WithMesh>(ranks_.handle(), density);
-    return {both, &both->evaluator};
-  }
-
- private:
-  MpiCommunicator& ranks_;
-};
+std::shared_ptr<engine::Evaluator> evaluator_on(const MpiCommunicator& ranks,
+                                                const engine::Density& density) {
+  if (ranks.size() == 1) return std::make_shared<engine::LocalEvaluator>(density);
+  struct WithMesh {
+    WithMesh(MPI_Comm comm, const engine::Density& density) : mesh(comm), evaluator(mesh, density) {}
+    pstripack::DistributedMesh mesh;
+    engine::DistributedEvaluator evaluator;
+  };
+  const auto both = std::make_shared<WithMesh>(ranks.handle(), density);
+  return {both, &both->evaluator};
+}
 
 /// The communicator of on_rank_0; null outside of it.
 MpiCommunicator*& ranks_of_program() {
@@ -131,15 +124,13 @@ void on_all_ranks(const std::function<void(Ranks&)>& body) {
   files::set_trmesh([](const pstripack::TrmeshCall& call) { return pstripack::trmesh(call); });
   if (ranks.rank() == 0) word_of_rank_0(ranks, kTogether);
   global().ranks = ranks.size();
-  AllRanks all(ranks);
+  Ranks all{ranks, [&](const engine::Density& density) { return evaluator_on(ranks, density); }};
   try {
     body(all);
-  } catch (const engine::NoTessellation&) {
-    throw;
-  } catch (const pstripack::AgreedFailure&) {
-    throw;
   } catch (const std::exception& e) {
-    if (ranks.size() > 1) ranks.abort("error", e.what());
+    const bool is_agreed = dynamic_cast<const engine::NoTessellation*>(&e) != nullptr ||
+                           dynamic_cast<const pstripack::AgreedFailure*>(&e) != nullptr;
+    if (ranks.size() > 1 && !is_agreed) ranks.abort("error", e.what());
     throw;
   }
 }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <utility>
 
@@ -20,9 +19,9 @@ CLI::Validator one_of(std::vector<std::string> words) {
   return CLI::Validator(check, "");
 }
 
-void add_words(CLI::App& app, const char* name, std::vector<std::string> words, const char* text,
-               const std::function<void(const std::string&)>& set) {
-  app.add_option_function(name, set, text)->type_name("WORD")->check(one_of(std::move(words)));
+CLI::Option* add_words(CLI::App& app, const char* name, std::vector<std::string> words, const char* text,
+                       const std::function<void(const std::string&)>& set) {
+  return app.add_option_function(name, set, text)->type_name("WORD")->check(one_of(std::move(words)));
 }
 
 void add_reading(CLI::App& app, files::ReadOptions& read) {
@@ -39,10 +38,9 @@ void add_reading(CLI::App& app, files::ReadOptions& read) {
       app, "--coordinates", read.coordinates, {{"xyz", Coordinates::xyz}, {"lonlat", Coordinates::lonlat}},
       "xyz: three columns, any lengths; lonlat: two columns. Geodetic latitudes are taken as latitudes "
       "of a sphere, from which they differ by up to 0.19 degrees, 21 km [what names or number tell]");
-  app.add_option("--columns", read.columns,
-                 "lon,lat or x,y,z, then other columns to keep: their names; in text also their numbers, or "
-                 "first and last characters of fixed widths, as in 22-30,13-20 [all]")
-      ->type_name("NAMES");
+  option(app, "--columns NAMES", read.columns,
+         "lon,lat or x,y,z, then other columns to keep: their names; in text also their numbers, or "
+         "first and last characters of fixed widths, as in 22-30,13-20 [all]");
   add_choice(app, "--separator", read.text.separator,
              {{"tab", '\t'}, {"comma", ','}, {"semicolon", ';'}, {"blank", ' '}},
              "what separates columns of text: tab, comma, semicolon or blank [detected]");

@@ -1,6 +1,7 @@
 #pragma once
 // The options that say how a file of nodes is read, for pstripack and stripack-compare.
 
+#include <CLI/CLI.hpp>
 #include <functional>
 #include <map>
 #include <string>
@@ -8,20 +9,22 @@
 
 #include "files/nodes.h"
 
-namespace CLI {
-class App;
-class Option;
-class Validator;
-}  // namespace CLI
-
 namespace program {
+
+/// Adds an option by "--name TYPE", or an argument by its name.
+template <class T>
+CLI::Option* option(CLI::App& app, const std::string& name, T& value, const std::string& text) {
+  const std::size_t blank = name.find(' ');
+  return app.add_option(name.substr(0, blank), value, text)
+      ->type_name(blank == name.npos ? "" : name.substr(blank + 1));
+}
 
 /// Accepts one of these words.
 CLI::Validator one_of(std::vector<std::string> words);
 
 /// Adds an option that is one of these words; set(word) takes it.
-void add_words(CLI::App& app, const char* name, std::vector<std::string> words, const char* text,
-               const std::function<void(const std::string&)>& set);
+CLI::Option* add_words(CLI::App& app, const char* name, std::vector<std::string> words, const char* text,
+                       const std::function<void(const std::string&)>& set);
 
 /// Adds an option that is one of these words, each of which stands for an enumerator.
 template <class Enum>

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -91,7 +90,7 @@ constexpr std::pair<const char*, std::string Options::*> kStored[] = {
 constexpr std::pair<const char*, double Options::*> kStoredNumbers[] = {{"scvt_radius", &Options::radius},
                                                                         {"scvt_grade", &Options::grade}};
 
-std::string note(const files::Notes& notes, const char* name) {
+std::string note(const files::Notes& notes, const std::string& name) {
   const auto found = notes.find(name);
   return found == notes.end() ? "" : found->second;
 }
@@ -125,19 +124,10 @@ std::unique_ptr<engine::Density> density_in_file(const Options& options) {
     if (!(values[i] > 0 && std::isfinite(values[i])))
       throw std::runtime_error(fmt::format("{}: {}: density {}: must be positive and finite", nodes.file,
                                            nodes.place(i), values[i]));
-  if (!nodes.grid.lon.empty()) {
-    try {
-      return methods::density_on_grid(nodes.grid, values);
-    } catch (const std::runtime_error& e) {
-      throw std::runtime_error(nodes.file + ": " + e.what());
-    }
-  }
+  if (!nodes.grid.lon.empty())
+    return in_file(nodes.file, [&] { return methods::density_on_grid(nodes.grid, values); });
   drop_duplicates(nodes, options.start);
-  try {
-    return methods::density_between(nodes.points, values);
-  } catch (const files::NoMesh& e) {
-    throw no_mesh_of(nodes, e);
-  }
+  return with_nodes(nodes, [&] { return methods::density_between(nodes.points, values); });
 }
 
 /// Sets N to the number of cells that have these widths, unless N is given, and says so.
@@ -225,12 +215,7 @@ methods::Widths widths_in_file(const Options& options) {
   if (middle > 20000 || middle < 0.01)
     fail(fmt::format("the median width is {:g} km: if these are not km, say so: ncatted -a units,{},c,c,m {}",
                      middle, nodes.value.name, nodes.file));
-  methods::Table table;
-  try {
-    table = methods::table_of<float>(nodes.grid, km);
-  } catch (const std::runtime_error& e) {
-    fail(e.what());
-  }
+  methods::Table table = in_file(nodes.file, [&] { return methods::table_of<float>(nodes.grid, km); });
   km = {};
   return widths_of(std::move(table), options);
 }
@@ -263,12 +248,9 @@ methods::Widths widths_of_formula(const Options& options) {
 methods::Widths widths_of_regions(const Options& options) {
   const methods::WidthFormula elsewhere(options.width_text);
   const auto regions = files::read_width_regions(options.width_region);
-  methods::Table table;
-  try {
-    table = methods::widths_of_regions(regions, elsewhere, options.radius / 1000);
-  } catch (const std::runtime_error& e) {
-    throw std::runtime_error(options.width_region + ": " + e.what());
-  }
+  methods::Table table = in_file(options.width_region, [&] {
+    return methods::widths_of_regions(regions, elsewhere, options.radius / 1000);
+  });
   return widths_of(std::move(table), options);
 }
 
@@ -350,17 +332,19 @@ void choose_density(Options& options, const files::Notes& notes) {
   if (options.tolerance < 0) options.tolerance = !options.region.empty() ? 1e-3 : widths_differ ? 3e-4 : 1e-4;
 }
 
+/// Empty: not used.
 files::Notes notes_of_density(const Options& options) {
   files::Notes notes;
-  for (const auto& [name, option] : kStored)
-    if (!(options.*option).empty()) notes[name] = options.*option;
+  for (const auto& [name, option] : kStored) notes[name] = options.*option;
   for (const auto& [name, option] : kStoredNumbers)
-    if (options.has_widths()) notes[name] = fmt::format("{}", options.*option);
+    notes[name] = options.has_widths() ? fmt::format("{}", options.*option) : "";
   return notes;
 }
 
 files::Notes notes_of(const Options& options, const State& state, const engine::Progress& reached) {
-  files::Notes notes = notes_of_density(options);
+  files::Notes notes;
+  for (const auto& [name, text] : notes_of_density(options))
+    if (!text.empty()) notes[name] = text;
   notes[kEvaluations] = std::to_string(state.evaluations);
   notes[kSteps] = std::to_string(state.steps);
   notes[kExponent] = std::to_string(state.exponent);
@@ -376,11 +360,8 @@ files::Notes notes_of(const Options& options, const State& state, const engine::
 /// True if the file has the density of this run.
 bool has_density_of(const files::Notes& notes, const Options& options) {
   const files::Notes chosen = notes_of_density(options);
-  const auto is_same = [&](const auto& entry) {
-    return note(notes, entry.first) == note(chosen, entry.first);
-  };
-  return std::all_of(std::begin(kStored), std::end(kStored), is_same) &&
-         std::all_of(std::begin(kStoredNumbers), std::end(kStoredNumbers), is_same);
+  return std::all_of(chosen.begin(), chosen.end(),
+                     [&](const auto& entry) { return note(notes, entry.first) == entry.second; });
 }
 
 // Steps and changes of the gradient are stored as columns scvt_step_1_x ... scvt_change_8_z, the oldest
@@ -430,6 +411,11 @@ std::vector<State::Pair> pairs_in(const files::Nodes& start) {
   return has_all ? pairs : std::vector<State::Pair>();
 }
 
+void number(Tessellation& t) {
+  t.numbers.resize(t.state.generators.size());
+  std::iota(t.numbers.begin(), t.numbers.end(), std::int64_t{1});
+}
+
 /// The state of a run from its file; the generators and pairs of rank 0. Pairs are used only if the density
 /// is the same and the method is not Lloyd's, which needs none. Collective.
 Tessellation tessellation_of(Communicator& ranks, files::Nodes& start, Options& options) {
@@ -452,8 +438,7 @@ Tessellation tessellation_of(Communicator& ranks, files::Nodes& start, Options& 
         have_pairs.value = !t.state.pairs.empty();
         triangulate(start);  // reports wrong nodes with their lines
         t.state.generators = engine::unit_vectors(std::move(start.points));
-        t.numbers.resize(t.state.generators.size());
-        std::iota(t.numbers.begin(), t.numbers.end(), std::int64_t{1});
+        number(t);
       },
       have_pairs);
   if (!have_pairs.value) t.state.pairs.clear();
@@ -521,8 +506,7 @@ Tessellation first_tessellation(const Options& options, engine::Evaluator& evalu
       if (evaluator.ranks().rank() > 0) return;
       t.state.generators = is_regional ? methods::front_around(options.centre, options.n, evaluator.density())
                                        : engine::front_generators(options.n, evaluator.density());
-      t.numbers.resize(options.n);
-      std::iota(t.numbers.begin(), t.numbers.end(), std::int64_t{1});
+      number(t);
     });
     return t;
   }
@@ -668,7 +652,7 @@ files::Nodes read_start(Communicator& ranks, const Options& options) {
 
 /// The command, on all ranks.
 void scvt(Options& options, Ranks& ranks) {
-  Communicator& communicator = ranks.communicator();
+  Communicator& communicator = ranks.communicator;
   in_agreement_with_caller(communicator, [&] {
     if (communicator.rank() > 0) return;
     for (const Output* const output : {&options.output, &options.checkpoint})
@@ -763,44 +747,32 @@ void add_scvt(CLI::App& app, Command& chosen) {
   CLI::App* const sub = app.add_subcommand(
       "scvt", "spherical centroidal Voronoi tessellation: moves generators to the centroids of their cells");
   const auto options = std::make_shared<Options>();
-  sub->add_option("N", options->n, "number of generators, unless widths or --start are given")
-      ->type_name("")
+  option(*sub, "N", options->n, "number of generators, unless widths or --start are given")
       ->transform(whole_number())
       ->check(CLI::Range(std::size_t{4}, std::size_t{357913943}).description(""));
-  sub->add_option("--seed", options->seed, "seed of random generators")
-      ->type_name("NUMBER")
-      ->capture_default_str();
+  option(*sub, "--seed NUMBER", options->seed, "seed of random generators")->capture_default_str();
   add_choice(*sub, "--first", options->first,
              {{"front", First::front}, {"levels", First::levels}, {"random", First::random}},
              "where N generators begin, see below [front from 3000 on, else levels; on ranks levels]");
-  sub->add_option("--start", options->start.file,
-                  "initial generators, or the output or checkpoint of a run to continue")
-      ->type_name("FILE");
-  sub->add_option("--density", options->density, "density, see below [that of --start, or constant]")
-      ->type_name("FORMULA")
+  option(*sub, "--start FILE", options->start.file,
+         "initial generators, or the output or checkpoint of a run to continue");
+  option(*sub, "--density FORMULA", options->density, "density, see below [that of --start, or constant]")
       ->check(parsed_by([](const std::string& text) { methods::density_of(text); }));
-  sub->add_option("--density-file", options->density_file,
-                  "density at nodes, linear in between: lines of lon lat value or x y z value, or NetCDF")
-      ->type_name("FILE");
-  sub->add_option(
-         "--width", options->width_text,
+  option(*sub, "--density-file FILE", options->density_file,
+         "density at nodes, linear in between: lines of lon lat value or x y z value, or NetCDF");
+  option(*sub, "--width WIDTH", options->width_text,
          "width of all cells, as in 60km, or a formula, see below. It is the distance of neighbours in "
          "a mesh of regular hexagons; N follows from it")
-      ->type_name("WIDTH")
       ->check(parsed_by([](const std::string& text) {
         if (!is_name(text)) methods::WidthFormula{text};
       }));
-  sub->add_option("--width-file", options->width_file,
-                  "widths in km, bilinear on a longitude-latitude grid (NetCDF): cellWidth(lat, lon)")
-      ->type_name("FILE");
-  sub->add_option("--width-region", options->width_region,
-                  "GeoJSON polygons with properties width and transition, km, within --width elsewhere")
-      ->type_name("FILE")
+  option(*sub, "--width-file FILE", options->width_file,
+         "widths in km, bilinear on a longitude-latitude grid (NetCDF): cellWidth(lat, lon)");
+  option(*sub, "--width-region FILE", options->width_region,
+         "GeoJSON polygons with properties width and transition, km, within --width elsewhere")
       ->needs("--width");
-  sub->add_option(
-         "--width-distance", options->width_distance,
+  option(*sub, "--width-distance FILE:NEAR:FAR:KM", options->width_distance,
          "widths of NEAR km at the lines or polygons of a GeoJSON file, growing to FAR at KM km from them")
-      ->type_name("FILE:NEAR:FAR:KM")
       ->check(parsed_by([](const std::string& text) { methods::WidthDistance{text}; }));
   const char* const one_of_these[] = {"--density", "--density-file", "--width", "--width-file",
                                       "--width-distance"};
@@ -808,20 +780,17 @@ void add_scvt(CLI::App& app, Command& chosen) {
     for (const char* const b : one_of_these)
       if (a != b) sub->get_option(a)->excludes(sub->get_option(b));
   add_limited_area(*sub, options->region, options->sides)->excludes("--density")->excludes("--density-file");
-  sub->add_option("--grade", options->grade,
-                  "largest change of widths, km per km: widths above it are lowered [0.2]")
-      ->type_name("NUMBER")
+  option(*sub, "--grade NUMBER", options->grade,
+         "largest change of widths, km per km: widths above it are lowered [0.2]")
       ->check(number_from(kAbove0, kLargest, "a finite number above 0"));
   add_radius(*sub, options->radius, "radius of the sphere: for widths [6371220], in an MPAS mesh [1]");
-  sub->add_option("--variable", options->variable,
-                  "variable of the file of densities or widths: its name (NetCDF) or column (text, from 1)")
-      ->type_name("NAME");
+  option(*sub, "--variable NAME", options->variable,
+         "variable of the file of densities or widths: its name (NetCDF) or column (text, from 1)");
   add_choice(*sub, "--method", options->method, {{"newton", Method::newton}, {"lloyd", Method::lloyd}},
              "newton (L-BFGS) or lloyd [newton]");
-  sub->add_option("--tolerance", options->tolerance,
-                  "stop at this gradient: root mean square distance to the centroid over sqrt(4 pi/N) [1e-4; "
-                  "where widths differ 3e-4, with --region 1e-3, or when the energy has settled]")
-      ->type_name("NUMBER")
+  option(*sub, "--tolerance NUMBER", options->tolerance,
+         "stop at this gradient: root mean square distance to the centroid over sqrt(4 pi/N) [1e-4; "
+         "where widths differ 3e-4, with --region 1e-3, or when the energy has settled]")
       ->check(number_from(0, kLargest, "a number of at least 0"));
   sub->add_flag(
       "--well-centred", options->well_centred,
@@ -829,21 +798,17 @@ void add_scvt(CLI::App& app, Command& chosen) {
   sub->add_flag(
       "--strict", options->strict,
       "status 1 if the run has not converged, or if a well-centred mesh was asked for and is not reached");
-  sub->add_option(
-         "--evaluations", options->evaluations,
+  option(*sub, "--evaluations NUMBER", options->evaluations,
          "largest number of evaluations of all N cells, including those of a run that --start continues")
-      ->type_name("NUMBER")
       ->transform(whole_number())
       ->capture_default_str();
-  sub->add_option("--time-limit", options->time_limit,
-                  "end the iterations after this time from the start, and write the mesh; a signal TERM or "
-                  "INT does the same")
-      ->type_name("SECONDS")
+  option(*sub, "--time-limit SECONDS", options->time_limit,
+         "end the iterations after this time from the start, and write the mesh; a signal TERM or "
+         "INT does the same")
       ->check(number_from(kAbove0, kLargest, "a finite number above 0"));
-  sub->add_option("--checkpoint", options->checkpoint.file, "file that is written after every --every steps")
-      ->type_name("FILE");
-  sub->add_option("--every", options->every, "steps between checkpoints")
-      ->type_name("NUMBER")
+  option(*sub, "--checkpoint FILE", options->checkpoint.file,
+         "file that is written after every --every steps");
+  option(*sub, "--every NUMBER", options->every, "steps between checkpoints")
       ->capture_default_str()
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1000000000}).description(""));
   add_reading(*sub, options->start.read);

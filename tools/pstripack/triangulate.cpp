@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "files/clipping.h"
@@ -36,18 +35,16 @@ void run(Options& options, const Write& write) {
   add_history(nodes.notes);
   files::Mesh mesh = progress.step("triangulating", [&] { return triangulate(nodes); });
   const std::string what = progress.step("writing", [&] {
-    try {
-      const std::string written = write(file, mesh);
-      file.commit();
-      return written;
-    } catch (const files::NoMesh& e) {
-      throw no_mesh_of(nodes, e);
-    }
+    const std::string written = with_nodes(nodes, [&] { return write(file, mesh); });
+    file.commit();
+    return written;
   });
   progress.finish(fmt::format("{} ({}), {}", counted(nodes.points.size(), "node"), nodes.kind, what));
 }
 
 void triangulate(Options& options) {
+  if (options.longest.radians == 0 && !options.longest.text.empty())
+    throw CLI::ValidationError("--longest", "'" + options.longest.text + "' leaves out everything");
   if (options.longest.radians > 0 && options.what == "hull")
     throw CLI::ValidationError("--longest", "the hull is that of all nodes: leave out --longest");
   run(options, [&](const files::OutputFile& file, files::Mesh& mesh) {
@@ -87,12 +84,9 @@ void tell_huge_cell(const Options& options, const files::Faces& faces, const fil
 }
 
 void clip(files::Faces& faces, const std::string& to) {
-  try {
-    faces = clipped_to_polygons(faces, is_box(to) ? std::vector{region_of_box(region_of(to, "--clip-to"))}
-                                                  : files::read_polygons(to));
-  } catch (const files::NoMesh& e) {
-    throw std::runtime_error(to + ": " + e.what());
-  }
+  const auto polygons =
+      is_box(to) ? std::vector{region_of_box(region_of(to, "--clip-to"))} : files::read_polygons(to);
+  faces = in_file(to, [&] { return clipped_to_polygons(faces, polygons); });
   if (faces.size() == 0) throw files::NoMesh(to + " holds no part of the cells that is wider than rounding");
 }
 
@@ -132,21 +126,13 @@ void add_triangulate(CLI::App& app, Command& chosen) {
           chosen);
   CLI::App* const sub = app.get_subcommand("triangulate");
   add_radius(*sub, options->output.radius, kRadiusOfMpas);
-  sub->add_option(
-         "--what", options->what,
+  option(*sub, "--what WORD", options->what,
          "triangles, links (their sides, with lengths: GeoJSON, CSV) or hull (a polygon; CSV: its nodes)")
-      ->type_name("WORD")
       ->capture_default_str()
       ->check(one_of({"triangles", "links", "hull"}));
-  sub->add_option_function<std::string>(
-         "--longest",
-         [options](const std::string& text) {
-           options->longest = distance_of("--longest", text);
-           if (options->longest.radians == 0)
-             throw CLI::ValidationError("--longest", "'" + text + "' leaves out everything");
-         },
-         "leave out triangles with a side longer than this, and longer links: 500km, 20m, 5deg, 0.1rad")
-      ->type_name("DISTANCE");
+  add_distance(
+      *sub, "--longest", options->longest,
+      "leave out triangles with a side longer than this, and longer links: 500km, 20m, 5deg, 0.1rad");
 }
 
 void add_voronoi(CLI::App& app, Command& chosen) {
@@ -155,10 +141,9 @@ void add_voronoi(CLI::App& app, Command& chosen) {
           "Voronoi diagram of the nodes: a mesh with one polygon per node, in the order of the nodes",
           voronoi, chosen);
   CLI::App* const sub = app.get_subcommand("voronoi");
-  sub->add_option("--clip-to", options->clip_to,
-                  "cut the cells at WEST,EAST,SOUTH,NORTH, where 170,-170 crosses the dateline, or at the "
-                  "polygons of a GeoJSON file")
-      ->type_name("BOX");
+  option(*sub, "--clip-to BOX", options->clip_to,
+         "cut the cells at WEST,EAST,SOUTH,NORTH, where 170,-170 crosses the dateline, or at the "
+         "polygons of a GeoJSON file");
   sub->add_flag("--clip-to-hull", options->clip_to_hull, "cut the cells at the convex hull of the nodes");
 }
 
