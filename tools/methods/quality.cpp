@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "files/limited_area.h"
@@ -11,36 +12,15 @@
 #include "stripack/voronoi.h"
 
 namespace methods {
-namespace {
-
-using pstripack::Direction;
-using pstripack::Directions;
-using pstripack::scvt::NeighbourLists;
-
-/// Calls visit(from, to) for each triangle at node i, with the indices of its two other corners.
-template <class Visit>
-void around(const NeighbourLists& stars, std::size_t i, const Visit& visit) {
-  const std::size_t begin = stars.begin_of(i), end = stars.end_of(i);
-  auto from = static_cast<std::size_t>(stars.neighbour[end - 1]) - 1;
-  for (std::size_t k = begin; k < end; ++k) {
-    const auto to = static_cast<std::size_t>(stars.neighbour[k]) - 1;
-    visit(from, to);
-    from = to;
-  }
-}
-
-Direction at(const Directions& directions, std::size_t i) {
-  return direction_of(directions, static_cast<pstripack::index_t>(i));
-}
-
-}  // namespace
 
 Quality quality_of(const files::Mesh& mesh) {
   if (mesh.has_boundary()) throw files::NoMesh("the nodes lie in one hemisphere");
-  const NeighbourLists stars{mesh.points.size(), mesh.lend.data(), mesh.list.data()};
-  const Directions directions(mesh.points.data(), mesh.points.size());
+  const pstripack::scvt::NeighbourLists stars{mesh.points.size(), mesh.lend.data(), mesh.list.data()};
+  const pstripack::Directions directions(mesh.points.data(), mesh.points.size());
   std::vector<double> areas(stars.count);
   if (!cell_areas(mesh.lists(), directions, areas.data())) throw files::NoMesh("the lists are broken");
+  const auto index = [&](std::size_t k) { return static_cast<std::size_t>(stars.neighbour[k]) - 1; };
+  const auto at = [&](std::size_t i) { return direction_of(directions, static_cast<pstripack::index_t>(i)); };
   const auto is_kept = [&](std::size_t i) {
     return mesh.layers.empty() || mesh.layers[i] != files::kLeftOut;
   };
@@ -49,16 +29,18 @@ Quality quality_of(const files::Mesh& mesh) {
     if (!is_kept(i)) continue;
     const auto sides = static_cast<int>(stars.end_of(i) - stars.begin_of(i));
     ++quality.cells[static_cast<std::size_t>(std::min(sides, Quality::kMostSides))];
-    around(stars, i, [&](std::size_t from, std::size_t to) {
+    std::size_t last = index(stars.end_of(i) - 1);
+    for (std::size_t k = stars.begin_of(i); k < stars.end_of(i); ++k) {
+      const std::size_t to = index(k), from = std::exchange(last, to);
       if (is_kept(to)) quality.largest_ratio = std::max(quality.largest_ratio, areas[i] / areas[to]);
-      if (!is_kept(from) || !is_kept(to) || from < i || to < i) return;
-      const pstripack::Angles angles = angles_of(at(directions, i), at(directions, from), at(directions, to));
+      if (!is_kept(from) || !is_kept(to) || from < i || to < i) continue;
+      const pstripack::Angles angles = angles_of(at(i), at(from), at(to));
       for (const double angle : angles.at) {
         quality.smallest_angle = std::min(quality.smallest_angle, angle * files::kRadian);
         quality.largest_angle = std::max(quality.largest_angle, angle * files::kRadian);
       }
       if (!angles.are_acute && quality.obtuse++ == 0) quality.place = mesh.points[i];
-    });
+    }
   }
   return quality;
 }

@@ -26,6 +26,15 @@ std::string printed(std::chars_format format, int precision, double value) {
   return {text, std::to_chars(text, text + sizeof text, value, format, precision).ptr};
 }
 
+/// "10⁻⁴"
+std::string power_of_ten(int exponent) {
+  if (exponent == 0) return "1";
+  static const char* const digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = exponent < 0 ? "10⁻" : "10";
+  for (const char c : std::to_string(std::abs(exponent))) text += digits[c - '0'];
+  return text;
+}
+
 int exponent_of(double value) { return static_cast<int>(std::floor(std::log10(value))); }
 
 }  // namespace
@@ -132,14 +141,6 @@ double text_width(const std::string& utf8, double size) {
 std::string grouped(std::size_t number) {
   std::string text = std::to_string(number);
   for (std::size_t at = text.size(); at > 3;) text.insert(at -= 3, ",");
-  return text;
-}
-
-std::string power_of_ten(int exponent) {
-  if (exponent == 0) return "1";
-  static const char* const digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text = exponent < 0 ? "10⁻" : "10";
-  for (const char c : std::to_string(std::abs(exponent))) text += digits[c - '0'];
   return text;
 }
 

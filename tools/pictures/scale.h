@@ -48,7 +48,4 @@ double text_width(const std::string& utf8, double size);
 /// "10,242"
 std::string grouped(std::size_t number);
 
-/// "10⁻⁴"
-std::string power_of_ten(int exponent);
-
 }  // namespace pictures
