@@ -67,17 +67,6 @@ void check_lengths(const Nodes& nodes) {
 
 constexpr double kDegree = kRightAngle / 90;
 
-std::string suffixes() {
-  std::string text;
-  for (const files::FormatEntry& f : files::formats())
-    text += fmt::format("\n  {:<7} {:<16} {}", f.name, f.suffixes, f.what);
-  return text;
-}
-
-}  // namespace
-
-namespace {
-
 Distance distance_of(const char* option, const std::string& text) {
   const std::size_t unit = text.find_last_not_of("abcdefghijklmnopqrstuvwxyz") + 1;
   constexpr std::pair<const char*, double> kUnits[] = {{"mm", files::kMillimetre},
@@ -97,6 +86,13 @@ Distance distance_of(const char* option, const std::string& text) {
   if (!(value >= 0 && distance.radians < 90 * kDegree))
     throw CLI::ValidationError(option, "'" + text + "': expected a distance from 0 to less than 90deg");
   return distance;
+}
+
+std::string suffixes() {
+  std::string text;
+  for (const files::FormatEntry& f : files::formats())
+    text += fmt::format("\n  {:<7} {:<16} {}", f.name, f.suffixes, f.what);
+  return text;
 }
 
 }  // namespace
