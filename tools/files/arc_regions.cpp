@@ -102,10 +102,10 @@ void follow_great_circles(const std::string& name, MapRegion& region) {
       const auto [to_x, to_y] = ring[i + 1];
       line.push_back(point_sets::from_degrees(x, y));
       if (std::fabs(to_x - x) >= 180 && std::fabs(y + to_y) < 180)
-        throw std::runtime_error(fmt::format(
-            "{}: {}its side from {:g},{:g} to {:g},{:g} is no arc of less than 180 degrees: "
-            "add corners between them",
-            name, region.feature > 0 ? fmt::format("feature {}: ", region.feature) : "", x, y, to_x, to_y));
+        fail(name,
+             "{}its side from {:g},{:g} to {:g},{:g} is no arc of less than 180 degrees: "
+             "add corners between them",
+             region.feature > 0 ? fmt::format("feature {}: ", region.feature) : "", x, y, to_x, to_y);
     }
     ring = on_map(line, ring[0].first);
   }
@@ -121,29 +121,29 @@ class PtsFile {
     std::istringstream text(contents_of(file));
     std::string line;
     for (std::size_t number = 1; std::getline(text, line); ++number) {
+      const std::string where = line_of(file, number);
       line = trimmed(line.substr(0, line.find('#')));
       const std::size_t colon = line.find(':');
       if (line.empty()) continue;
       if (colon == line.npos) {
-        corners_.push_back(place("a corner", {line, number}));
+        corners_.push_back(place("a corner", {line, where}));
         continue;
       }
       const std::string key(trimmed(line.substr(0, colon)));
       const auto known = std::find_if(kKeys.begin(), kKeys.end(),
                                       [&](const std::string& name) { return lower(name) == lower(key); });
-      if (known == kKeys.end())
-        fail(number, fmt::format("unknown key '{}'{}", excerpt(key), did_you_mean(key, kKeys)));
-      if (!values_.emplace(*known, Value{std::string(trimmed(line.substr(colon + 1))), number}).second)
-        fail(number, *known + " a second time");
+      if (known == kKeys.end()) fail(where, "unknown key '{}'{}", excerpt(key), did_you_mean(key, kKeys));
+      if (!values_.emplace(*known, Value{std::string(trimmed(line.substr(colon + 1))), where}).second)
+        fail(where, "{} a second time", *known);
     }
   }
 
   /// `radius`: of the sphere, metres.
   MapRegion region(double radius) const {
-    const auto& [text, line] = value("Type");
+    const auto& [text, where] = value("Type");
     const std::string type = lower(text);
     if (type != "custom" && !corners_.empty())
-      fail(line, fmt::format("the Type '{}' has no corners: only custom has", excerpt(text)));
+      fail(where, "the Type '{}' has no corners: only custom has", excerpt(text));
     MapRegion region;
     constexpr int kCorners = 100;
     const auto radians = [&](const char* key) { return number(key, 1, 3.14159 * radius) / radius; };
@@ -156,11 +156,10 @@ class PtsFile {
           parallel.push_back(point_sets::from_degrees(360.0 * k / kCorners, lat));
       }
     } else if (type == "custom") {
-      if (corners_.size() < 3) fail(line, "custom needs three corners or more: lines of `lat, lon`");
+      if (corners_.size() < 3) fail(where, "custom needs three corners or more: lines of `lat, lon`");
       for (std::size_t i = 0; i < corners_.size(); ++i)
         if (dot(corners_[i], corners_[(i + 1) % corners_.size()]) < -1 + 1e-12)
-          fail(line,
-               fmt::format("no one arc joins corner {} to the next, which is opposite: add one", i + 1));
+          fail(where, "no one arc joins corner {} to the next, which is opposite: add one", i + 1);
       region = region_of_arcs(corners_, place("Point", value("Point")));
     } else if (type == "circle" || type == "ellipse") {
       const LonLat centre({place("Point", value("Point"))}, true);
@@ -170,7 +169,7 @@ class PtsFile {
                    turn = is_circle ? 0 : number("Orientation-angle", -360, 360);
       region = ellipse_region(centre.lon[0], centre.lat[0], a, b, turn, kCorners);
     } else {
-      fail(line, fmt::format("Type '{}': expected circle, ellipse, channel or custom", excerpt(text)));
+      fail(where, "Type '{}': expected circle, ellipse, channel or custom", excerpt(text));
     }
     if (const auto name = values_.find("Name"); name != values_.end()) region.name = name->second.text;
     return region;
@@ -178,27 +177,22 @@ class PtsFile {
 
  private:
   struct Value {
-    std::string text;
-    std::size_t line;
+    std::string text, where;
   };
   inline static const std::vector<std::string> kKeys{
       "Name",      "Type",     "Point", "radius", "Semi-major-axis", "Semi-minor-axis", "Orientation-angle",
       "Upper-lat", "Lower-lat"};
 
-  [[noreturn]] void fail(std::size_t line, const std::string& what) const {
-    throw std::runtime_error(fmt::format("{}:{}: {}", file_, line, what));
-  }
   const Value& value(const std::string& key) const {
     const auto found = values_.find(key);
-    if (found == values_.end())
-      throw std::runtime_error(fmt::format("{}: there is no line `{}: ...`", file_, key));
+    if (found == values_.end()) fail(file_, "there is no line `{}: ...`", key);
     return found->second;
   }
   double number(const std::string& key, double low, double high) const {
-    const auto& [text, line] = value(key);
+    const auto& [text, where] = value(key);
     double number = 0;
     if (!point_sets::parse(text, number) || !(number >= low && number <= high))
-      fail(line, fmt::format("{}: '{}': expected a number from {:g} to {:g}", key, excerpt(text), low, high));
+      fail(where, "{}: '{}': expected a number from {:g} to {:g}", key, excerpt(text), low, high);
     return number;
   }
   Point place(const std::string& what, const Value& from) const {
@@ -207,8 +201,7 @@ class PtsFile {
                text.end());
     const std::vector<double> parts = numbers_between(text, ',');
     if (parts.size() != 2 || std::fabs(parts[0]) > 90 || std::fabs(parts[1]) > 360)
-      fail(from.line,
-           fmt::format("{}: '{}': expected `latitude, longitude` in degrees", what, excerpt(from.text)));
+      fail(from.where, "{}: '{}': expected `latitude, longitude` in degrees", what, excerpt(from.text));
     return point_sets::from_degrees(parts[1], parts[0]);
   }
 

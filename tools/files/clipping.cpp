@@ -220,35 +220,31 @@ int divisions_of(const Corner& p, const Corner& q) {
   return static_cast<int>(std::ceil(std::max({1.0, std::sqrt(bend / most), std::max(a, b) * kRadian / 10})));
 }
 
-/// Gives corners the bits of an earlier one within kSameCorner.
-class SameCorners {
- public:
-  const MapCorner& of(const MapCorner& corner) {
-    // Heights above a plane along which few corners lie differ by no more than their places.
-    const double height = dot(corner.p, {0.36, 0.48, 0.8});
-    for (auto c = corners_.lower_bound(height - 2 * kSameCorner);
-         c != corners_.end() && c->first <= height + 2 * kSameCorner; ++c)
-      if (length(minus(c->second.p, corner.p)) < kSameCorner) return c->second;
-    return corners_.emplace(height, corner)->second;
-  }
+/// By their heights above a plane along which few corners lie, which differ by no more than their places.
+using Corners = std::multimap<double, MapCorner>;
 
- private:
-  std::multimap<double, MapCorner> corners_;
-};
+/// The earlier corner within kSameCorner, else this one, which is added.
+const MapCorner& same_corner(Corners& corners, const MapCorner& corner) {
+  const double height = dot(corner.p, {0.36, 0.48, 0.8});
+  for (auto c = corners.lower_bound(height - 2 * kSameCorner);
+       c != corners.end() && c->first <= height + 2 * kSameCorner; ++c)
+    if (length(minus(c->second.p, corner.p)) < kSameCorner) return c->second;
+  return corners.emplace(height, corner)->second;
+}
 
 /// One piece of a polygon on its plane.
 struct Sheet {
   Plane plane;
   Rings rings;
 
-  Sheet(const Rings& piece, SameCorners& same) : plane(box_of(piece).middle()) {
+  Sheet(const Rings& piece, Corners& same) : plane(box_of(piece).middle()) {
     for (const Ring& on_map : piece) {
       Ring ring;
       const auto add = [&](double lon, double lat) {
         const Corner c = plane.at(lon, lat);
         if (!ring.empty() && ring.back().u == c.u && ring.back().v == c.v) return;
         ring.push_back(c);
-        same.of({point_sets::from_degrees(lon, lat), lon, lat});
+        same_corner(same, {point_sets::from_degrees(lon, lat), lon, lat});
       };
       for_each_side(on_map, [&](const Corner& p, const Corner& q) {
         add(p.u, p.v);
@@ -267,59 +263,34 @@ struct Sheet {
   }
 };
 
-/// Great circles of the sides of cells.
-class Sides {
- public:
-  explicit Sides(const Faces& cells)
-      : cells_(cells), edges_(edges_of(cells)), normals_(edges_.nodes.size() / 2) {
-    for (std::size_t e = 0; e < normals_.size(); ++e) {
-      const Point &from = point(edges_.nodes[2 * e]), &to = point(edges_.nodes[2 * e + 1]);
-      Point normal = cross(from, minus(to, from));
-      // The rounding of a normal is 1e-16 over the distance of the points that it is computed from.
-      if (const auto [left, right] = std::pair(edges_.faces[2 * e], edges_.faces[2 * e + 1]);
-          left > 0 && right > 0 && left != right) {
-        const Point &a = cells.centres[static_cast<std::size_t>(left) - 1],
-                    &b = cells.centres[static_cast<std::size_t>(right) - 1], d = minus(a, b);
-        if (dot(d, d) > dot(normal, normal)) {
-          // Lengths are 1 only up to rounding, which moves what is as far from a as from b by 1e-16 over |d|.
-          const Point sum{a.x + b.x, a.y + b.y, a.z + b.z};
-          const double t = dot(sum, sum) > 1 ? dot(sum, d) / dot(sum, sum) : 0;
-          normal = {d.x - t * sum.x, d.y - t * sum.y, d.z - t * sum.z};
-        }
-      }
-      normals_[e] = normal;
-    }
+/// The normals of the great circles of the sides of cells.
+std::vector<Point> normals_of(const Faces& cells, const Edges& edges) {
+  std::vector<Point> normals(edges.nodes.size() / 2);
+  for (std::size_t e = 0; e < normals.size(); ++e) {
+    const Point &from = cells.numbered(edges.nodes[2 * e]), &to = cells.numbered(edges.nodes[2 * e + 1]);
+    normals[e] = cross(from, minus(to, from));
+    // The rounding of a normal is 1e-16 over the distance of the points that it is computed from.
+    const std::int32_t left = edges.faces[2 * e], right = edges.faces[2 * e + 1];
+    if (left <= 0 || right <= 0 || left == right) continue;
+    const Point &a = cells.centres[static_cast<std::size_t>(left) - 1],
+                &b = cells.centres[static_cast<std::size_t>(right) - 1], d = minus(a, b);
+    if (dot(d, d) <= dot(normals[e], normals[e])) continue;
+    // Lengths are 1 only up to rounding, which moves what is as far from a as from b by 1e-16 over |d|.
+    const Point sum = plus(a, b);
+    const double t = dot(sum, sum) > 1 ? dot(sum, d) / dot(sum, sum) : 0;
+    normals[e] = {d.x - t * sum.x, d.y - t * sum.y, d.z - t * sum.z};
   }
-
-  /// Calls visit(line, k) for each side of the cell, from its corner[k].
-  template <class Visit>
-  void for_each_line(std::size_t cell, const Plane& plane, const Visit& visit) const {
-    for (std::size_t k = cells_.begin[cell]; k < cells_.begin[cell + 1]; ++k) {
-      const auto edge = static_cast<std::size_t>(edges_.of_faces[k]) - 1;
-      const Point& normal = normals_[edge];
-      if (normal == Point{0, 0, 0}) continue;
-      const bool is_left = cells_.corner[k] == edges_.nodes[2 * edge];
-      if (const auto line = plane.line(normal))
-        visit(is_left ? *line : line->reversed(), k);
-      else if ((dot(normal, plane.middle()) > 0) != is_left)
-        visit(Line{0, 0, -1}, k);
-    }
-  }
-
- private:
-  const Point& point(std::int32_t corner) const {
-    return cells_.points[static_cast<std::size_t>(corner) - 1];
-  }
-
-  const Faces& cells_;
-  Edges edges_;
-  std::vector<Point> normals_;
-};
+  return normals;
+}
 
 class Clipper {
  public:
   explicit Clipper(const Faces& cells)
-      : cells_(cells), sides_(cells), angles_(cells.points, true), radius_(cells.size()) {
+      : cells_(cells),
+        edges_(edges_of(cells)),
+        normals_(normals_of(cells, edges_)),
+        angles_(cells.points, true),
+        radius_(cells.size()) {
     cells.for_each_corner([&](std::size_t f, std::size_t k) {
       radius_[f] = std::max(radius_[f], angle_between(cells.centres[f], cells.point(k)));
     });
@@ -379,9 +350,16 @@ class Clipper {
   }
 
   Rings cut_at_sides(Rings rings, std::size_t cell) const {
-    sides_.for_each_line(cell, sheet_->plane, [&](const Line& line, std::size_t k) {
-      if (!rings.empty()) rings = cut(rings, line, static_cast<std::ptrdiff_t>(k));
-    });
+    for (std::size_t k = cells_.begin[cell]; k < cells_.begin[cell + 1] && !rings.empty(); ++k) {
+      const std::size_t edge = static_cast<std::size_t>(edges_.of_faces[k]) - 1;
+      const Point& normal = normals_[edge];
+      if (normal == Point{0, 0, 0}) continue;
+      const bool is_left = cells_.corner[k] == edges_.nodes[2 * edge];
+      if (const auto line = sheet_->plane.line(normal))
+        rings = cut(rings, is_left ? *line : line->reversed(), static_cast<std::ptrdiff_t>(k));
+      else if ((dot(normal, sheet_->plane.middle()) > 0) != is_left)
+        return {};
+    }
     return rings;
   }
 
@@ -441,16 +419,17 @@ class Clipper {
         // Two sides of the cell meet at its corner. If they are nearly one arc, they do not tell where.
         corner = corner_at(cells_, cells_.corner[static_cast<std::size_t>(c.side)], angles_);
       }
-      corners.push_back(same_.of(corner));
+      corners.push_back(same_corner(same_, corner));
     }
     parts_.push_back({cell, std::move(corners), area});
   }
 
   const Faces& cells_;
-  Sides sides_;
+  Edges edges_;
+  std::vector<Point> normals_;  ///< of the edges
   LonLat angles_;
   std::vector<double> radius_;  ///< of a cap around the node that holds the cell
-  SameCorners same_;
+  Corners same_;
   std::vector<Part> parts_;
   const Sheet* sheet_ = nullptr;
   std::size_t feature_ = 0;

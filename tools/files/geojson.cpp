@@ -33,9 +33,7 @@ void check_reference_system(const Json& root, const std::string& file) {
   const std::string name = text_of((*crs)["properties"], "name");
   const auto has = [&](const char* word) { return name.find(word) != name.npos; };
   if (!name.empty() && !has("CRS84") && !has("4326"))
-    throw std::runtime_error(
-        fmt::format("{}: coordinates are in {}: write the file in longitudes and latitudes, EPSG:4326", file,
-                    excerpt(name)));
+    fail(file, "coordinates are in {}: write the file in longitudes and latitudes, EPSG:4326", excerpt(name));
 }
 
 std::string name_of(const Json& feature, const Json& properties) {
@@ -62,8 +60,7 @@ Json read_features(const std::string& text, const std::string& file, const char*
   std::size_t count = 0;
   const auto see = [&](int depth, Json::parse_event_t event, Json& value) {
     if (depth > kMostLevels)
-      throw std::runtime_error(fmt::format("{}: JSON with more than {} levels of brackets, which no {} have",
-                                           file, kMostLevels, what));
+      fail(file, "JSON with more than {} levels of brackets, which no {} have", kMostLevels, what);
     if (depth == 1 && event == Json::parse_event_t::key) in_features = value == "features";
     if (depth != 2 || event != Json::parse_event_t::object_end || !in_features) return true;
     add(value, ++count);
@@ -75,24 +72,23 @@ Json read_features(const std::string& text, const std::string& file, const char*
   } catch (const Json::parse_error& e) {
     refuse_foreign(file, text);
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(e.byte, text.size()));
-    throw std::runtime_error(fmt::format("{}:{}: not valid JSON: {}", file,
-                                         1 + std::count(text.begin(), end, '\n'), reason_of(e)));
+    fail(line_of(file, 1 + static_cast<std::size_t>(std::count(text.begin(), end, '\n'))),
+         "not valid JSON: {}", reason_of(e));
   } catch (const Json::out_of_range&) {
-    throw std::runtime_error(fmt::format("{}: feature {}: a number is larger than 1e308", file, count + 1));
+    fail(file, "feature {}: a number is larger than 1e308", count + 1);
   }
   const std::string type = root.is_object() ? text_of(root, "type") : "";
   if (type == "FeatureCollection") {
     const auto rest = root.find("features");
     if (rest == root.end() || !rest->is_array() || !rest->empty())
-      throw std::runtime_error(file + ": \"features\" must be an array of features");
+      fail(file, "\"features\" must be an array of features");
   } else if (type == "Feature") {
     add(root, 1);
   } else if (std::find(geometries.begin(), geometries.end(), type) != geometries.end()) {
     add({{"type", "Feature"}, {"geometry", root}}, 1);
   } else {
-    throw std::runtime_error(
-        fmt::format("{}: not GeoJSON of {}: the type is '{}', expected FeatureCollection, Feature, {} or {}",
-                    file, what, excerpt(type), geometries.begin()[0], geometries.begin()[1]));
+    fail(file, "not GeoJSON of {}: the type is '{}', expected FeatureCollection, Feature, {} or {}", what,
+         excerpt(type), geometries.begin()[0], geometries.begin()[1]);
   }
   check_reference_system(root, file);
   return root;
@@ -102,8 +98,11 @@ std::vector<Shape> read_shapes(const std::string& file, const char* what,
                                std::initializer_list<const char*> types) {
   std::vector<Shape> shapes;
   read_features(contents_of(file), file, what, types, [&](const Json& feature, std::size_t number) {
+    Shape& shape = shapes.emplace_back();
+    shape.number = number;
+    shape.where = fmt::format("{}: feature {}", file, number);
     const auto require = [&](bool condition, const std::string& expected) {
-      if (!condition) throw std::runtime_error(fmt::format("{}: feature {}: {}", file, number, expected));
+      if (!condition) fail(shape.where, "{}", expected);
     };
     const auto geometry = feature.find("geometry");
     const std::string type =
@@ -112,8 +111,6 @@ std::vector<Shape> read_shapes(const std::string& file, const char* what,
             fmt::format("'{}' is not a {}", excerpt(type), fmt::join(types, " or ")));
     const auto coordinates = geometry->find("coordinates");
     require(coordinates != geometry->end(), "its geometry has no coordinates");
-    Shape& shape = shapes.emplace_back();
-    shape.number = number;
     const auto add = [&](const auto& add_those_in, const Json& list, std::vector<Line>& lines) -> void {
       require(list.is_array() && !list.empty() && list[0].is_array() && !list[0].empty(),
               "expected lists of [longitude, latitude]");
@@ -139,7 +136,7 @@ std::vector<Shape> read_shapes(const std::string& file, const char* what,
     if (properties != feature.end() && properties->is_object()) shape.properties = *properties;
     shape.name = name_of(feature, shape.properties);
   });
-  if (shapes.empty()) throw std::runtime_error(fmt::format("{}: no {}: there are no features", file, what));
+  if (shapes.empty()) fail(file, "no {}: there are no features", what);
   return shapes;
 }
 

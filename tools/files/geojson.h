@@ -28,6 +28,7 @@ using Line = std::vector<std::pair<double, double>>;  ///< longitudes and latitu
 /// A feature with lines or polygons.
 struct Shape {
   std::size_t number = 0;  ///< from 1
+  std::string where = {};  ///< in messages
   std::string name = {};   ///< its property `name` or `id`, or its member `id`; empty: it has none
   Json properties = {};
   /// The lines, each alone, or of each polygon the outline, then its holes.

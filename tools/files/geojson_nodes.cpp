@@ -40,7 +40,7 @@ class Features {
       return add_cell(*properties);
     const bool has_geometry = geometry != feature.end() && geometry->is_object();
     if (!has_geometry && !options_.keep_missing)
-      fail("has no geometry: remove it, give it a Point, or say --skip-missing");
+      fail(here(), "has no geometry: remove it, give it a Point, or say --skip-missing");
     const std::size_t first = nodes_.lines.size();
     if (has_geometry)
       add_points(*geometry);
@@ -83,24 +83,23 @@ class Features {
   /// Each column has a value for each node, so features with names of their own would take any memory.
   void expect_few_values() const {
     if (columns_.size() * nodes_.lines.size() > most_values_)
-      fail(fmt::format("the properties have {} different names, the last '{}': give all features the same",
-                       columns_.size(), excerpt(columns_.back().name)));
+      fail(here(), "the properties have {} different names, the last '{}': give all features the same",
+           columns_.size(), excerpt(columns_.back().name));
   }
 
-  [[noreturn]] void fail(const std::string& what) const {
-    throw std::runtime_error(fmt::format("{}: feature {}: {}", nodes_.file, count_, what));
-  }
+  /// The feature, in messages.
+  std::string here() const { return fmt::format("{}: feature {}", nodes_.file, count_); }
 
   void add_points(const json& geometry) {
     const std::string type = text_of(geometry, "type");
     if (type != "Point" && type != "MultiPoint")
-      fail(fmt::format("'{}' is not a Point or MultiPoint: nodes are points{}", excerpt(type),
-                       type.find("Polygon") != type.npos
-                           ? "; meshes are read from UGRID, MPAS and OFF, "
-                             "`plot` also takes the cells of `pstripack voronoi`"
-                           : ""));
+      fail(here(), "'{}' is not a Point or MultiPoint: nodes are points{}", excerpt(type),
+           type.find("Polygon") != type.npos ? "; meshes are read from UGRID, MPAS and OFF, "
+                                               "`plot` also takes the cells of `pstripack voronoi`"
+                                             : "");
     const auto coordinates = geometry.find("coordinates");
-    if (coordinates == geometry.end() || !coordinates->is_array()) fail("its geometry has no coordinates");
+    if (coordinates == geometry.end() || !coordinates->is_array())
+      fail(here(), "its geometry has no coordinates");
     if (type == "Point")
       add_point(*coordinates);
     else
@@ -116,7 +115,7 @@ class Features {
   void add_point(const json& point) {
     const auto is_number = [](const json& value) { return value.is_number(); };
     if (!point.is_array() || point.size() < 2 || !std::all_of(point.begin(), point.end(), is_number))
-      fail("expected coordinates [longitude, latitude] or [longitude, latitude, altitude]");
+      fail(here(), "expected coordinates [longitude, latitude] or [longitude, latitude, altitude]");
     if (point.size() > 2) set("altitude", nodes_.lines.size(), point[2]);
     add_node(point[0].get<double>(), point[1].get<double>());
   }
@@ -140,7 +139,7 @@ class Features {
     c->texts.push_back(value.is_string() ? value.get<std::string>() : value.dump());
     bytes_ += c->texts.back().size();  // each point of a MultiPoint has its own
     if (bytes_ > most_values_)
-      fail(fmt::format("the property '{}' has a long text for many points: leave it out", excerpt(name)));
+      fail(here(), "the property '{}' has a long text for many points: leave it out", excerpt(name));
   }
 
   Nodes& nodes_;
@@ -187,15 +186,13 @@ std::vector<std::string> chosen(const ReadOptions& options, const Columns& colum
   const std::string axes = options.coordinates == Coordinates::xyz ? "xyz" : "oa";
   for (std::size_t k = 0; k < axes.size(); ++k)
     if (k >= words.size() || axis_of(words[k]) != axes[k])
-      throw std::runtime_error(
-          fmt::format("{}: the coordinates are those of the geometry: give --columns {},NAME", file,
-                      axes == "oa" ? "lon,lat" : "x,y,z"));
+      fail(file, "the coordinates are those of the geometry: give --columns {},NAME",
+           axes == "oa" ? "lon,lat" : "x,y,z");
   words.erase(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(axes.size()));
   for (const std::string& word : words)
     if (find(columns, word) == nullptr)
-      throw std::runtime_error(fmt::format("{}: there is no property '{}'{}; the features have {}", file,
-                                           excerpt(word), did_you_mean(word, names_of(columns)),
-                                           listed(names_of(columns))));
+      fail(file, "there is no property '{}'{}; the features have {}", excerpt(word),
+           did_you_mean(word, names_of(columns)), listed(names_of(columns)));
   return words;
 }
 
@@ -206,11 +203,10 @@ Column value_of(Columns& columns, std::string name, const std::string& file) {
     if (!c.is_text()) numbers.push_back({c.name});
   if (name.empty() && numbers.size() == 1) name = numbers[0].name;
   if (find(numbers, name) == nullptr)
-    throw std::runtime_error(fmt::format("{}: {}{}; properties that are numbers: {}", file,
-                                         name.empty()
-                                             ? "which property is the value? Say --variable"
-                                             : fmt::format("no property '{}' is a number", excerpt(name)),
-                                         did_you_mean(name, names_of(numbers)), listed(names_of(numbers))));
+    fail(file, "{}{}; properties that are numbers: {}",
+         name.empty() ? "which property is the value? Say --variable"
+                      : fmt::format("no property '{}' is a number", excerpt(name)),
+         did_you_mean(name, names_of(numbers)), listed(names_of(numbers)));
   const Column value = *find(columns, name);
   remove(columns, name);
   return value;
@@ -233,7 +229,7 @@ Nodes read_geojson(const std::string& file, const ReadOptions& options, const st
   const json root = read_features(contents, file, "points", {"Point", "MultiPoint"},
                                   [&](const json& feature, std::size_t) { features.add(feature); });
   const std::size_t n = nodes.given.lon.size();
-  if (n == 0) throw std::runtime_error(file + ": no points: there are no features");
+  if (n == 0) fail(file, "no points: there are no features");
   for (const auto& [name, text] : root.items())
     if (is_note(name) && text.is_string()) nodes.notes[name] = text.get<std::string>();
 
@@ -241,17 +237,15 @@ Nodes read_geojson(const std::string& file, const ReadOptions& options, const st
   std::vector<std::string> wanted;
   if (!options.columns.empty()) wanted = chosen(options, columns, file);
   if (const std::size_t bad = first_beyond_pole(nodes.given); bad < n)
-    throw std::runtime_error(
-        fmt::format("{}: {}: latitude {} is beyond the pole: GeoJSON has [longitude, latitude] in degrees{}",
-                    file, nodes.place(bad), nodes.given.lat[bad], hint_beyond_pole(nodes.given, "")));
+    fail(file, "{}: latitude {} is beyond the pole: GeoJSON has [longitude, latitude] in degrees{}",
+         nodes.place(bad), nodes.given.lat[bad], hint_beyond_pole(nodes.given, ""));
   if (options.coordinates == Coordinates::xyz) {
     const std::vector<double>* axes[3];
     for (std::size_t k = 0; k < 3; ++k) {
       constexpr const char* kNames[] = {"x", "y", "z"};
       axes[k] = numbers_of_all(columns, kNames[k], options.keep_missing);
       if (axes[k] == nullptr)
-        throw std::runtime_error(fmt::format(
-            "{}: --coordinates xyz needs the property '{}', a number, of all features", file, kNames[k]));
+        fail(file, "--coordinates xyz needs the property '{}', a number, of all features", kNames[k]);
     }
     for (std::size_t i = 0; i < n; ++i) nodes.points.push_back({(*axes[0])[i], (*axes[1])[i], (*axes[2])[i]});
     nodes.given = {};

@@ -7,22 +7,18 @@
 #include <stdexcept>
 
 #include "files/measures.h"
+#include "files/text_file.h"
 #include "geometry/measures.h"
 #include "point_sets.h"
 
 namespace files {
-namespace {
-
-using Corner = std::pair<double, double>;
-
-}  // namespace
 
 // ---- areas ------------------------------------------------------------------------------------------------
 
-std::vector<Corner> LimitedArea::inside(double parallel) const {
-  std::vector<Corner> pairs;
+std::vector<std::pair<double, double>> LimitedArea::inside(double parallel) const {
+  std::vector<std::pair<double, double>> pairs;
   for (const MapRegion& polygon : polygons)
-    for (const Corner& pair : polygon.inside(parallel)) pairs.push_back(pair);
+    for (const auto& pair : polygon.inside(parallel)) pairs.push_back(pair);
   return pairs;
 }
 
@@ -34,7 +30,7 @@ bool LimitedArea::contains(const Point& p) const {
 std::vector<std::vector<Point>> LimitedArea::boundary() const {
   constexpr double kStep = 0.1;  // degrees. An arc leaves a line on the map by at most step^2 / 16.
   std::vector<std::vector<Point>> lines;
-  for (const MapRegion& polygon : polygons) {
+  for (const MapRegion& polygon : polygons)
     for (const auto& ring : polygon.rings) {
       std::vector<Point>& line = lines.emplace_back();
       for (std::size_t i = 1; i < ring.size(); ++i) {
@@ -46,7 +42,6 @@ std::vector<std::vector<Point>> LimitedArea::boundary() const {
       }
       line.push_back(line.front());
     }
-  }
   return lines;
 }
 
@@ -80,7 +75,7 @@ LimitedArea file_area(const std::string& file, double radius, bool are_degrees, 
     try {
       expect_no_crossing(polygon);
     } catch (const NoMesh& e) {
-      throw std::runtime_error(file + ": " + e.what());
+      fail(file, "{}", e.what());
     }
     may_be_radians = may_be_radians && polygon.corners.empty();
     for (const auto& [lon, lat] : polygon.rings[0])
@@ -89,10 +84,9 @@ LimitedArea file_area(const std::string& file, double radius, bool are_degrees, 
     area.has_chains = !polygon.corners.empty();
   }
   if (may_be_radians)
-    throw std::runtime_error(fmt::format(
-        "{}: all longitudes are within 2 pi and all latitudes within pi/2: GeoJSON is in degrees; "
-        "if these are degrees, say --units degrees",
-        file));
+    fail(file,
+         "all longitudes are within 2 pi and all latitudes within pi/2: GeoJSON is in degrees; "
+         "if these are degrees, say --units degrees");
   return area;
 }
 
@@ -134,9 +128,6 @@ class Layers {
  private:
   static constexpr std::int32_t kUnknown = -2, kInside = -3;
 
-  [[noreturn]] void fail(const std::string& what) const {
-    throw std::runtime_error(area_.name + ": " + what);
-  }
   std::string place(std::size_t cell) const {
     return fmt::format("lon {:.6g} lat {:.6g}", longitude(cells_[cell]), latitude(cells_[cell]));
   }
@@ -180,7 +171,7 @@ class Layers {
         const double off = std::fabs(dot(normal, cells_[n]));
         if (off < least && apart(cells_[end], n) < here) least = off, cell = n;
       });
-      if (cell == before) fail(fmt::format("the triangles at {} are not those of Delaunay", place(cell)));
+      if (cell == before) fail(area_.name, "the triangles at {} are not those of Delaunay", place(cell));
       layer_[cell] = 0;
     }
   }
@@ -231,10 +222,10 @@ class Layers {
     double sum = 0, count = 0;
     for_each_neighbour(reader_, cell,
                        [&](std::size_t n) { sum += std::sqrt(apart(cells_[n], cell)), ++count; });
-    fail(
-        fmt::format("no cell has its centre in the region; those at {} are {:.2g} degrees wide: enlarge the "
-                    "region, or take a finer mesh",
-                    place(cell), sum / count / kDegree));
+    fail(area_.name,
+         "no cell has its centre in the region; those at {} are {:.2g} degrees wide: enlarge the "
+         "region, or take a finer mesh",
+         place(cell), sum / count / kDegree);
   }
 
   void check_connected() const {
@@ -244,8 +235,8 @@ class Layers {
     flood(first, visited, is_in, [](std::size_t) {});
     for (std::size_t i = 0; i < cells_.size(); ++i)
       if (is_in(i) && !visited[i])
-        fail(fmt::format("two parts that do not touch, at {} and at {}: make a mesh of each", place(first),
-                         place(i)));
+        fail(area_.name, "two parts that do not touch, at {} and at {}: make a mesh of each", place(first),
+             place(i));
   }
 
   void add_layers() {
@@ -256,10 +247,10 @@ class Layers {
       next.clear();
       for (const std::size_t i : last) {
         if (reader_.on_boundary(static_cast<std::int32_t>(i) + 1))
-          fail(
-              fmt::format("at {} the mesh ends within {} layers of cells around the region: make the region "
-                          "smaller",
-                          place(i), kLayers));
+          fail(area_.name,
+               "at {} the mesh ends within {} layers of cells around the region: make the region "
+               "smaller",
+               place(i), kLayers);
         if (layer < kLayers)
           for_each_neighbour(reader_, i, [&](std::size_t n) {
             if (layer_[n] != kLeftOut) return;
@@ -307,16 +298,11 @@ Mesh cut(const Mesh& mesh) {
     if (*std::min_element(t.begin(), t.end()) >= 0) triangles.push_back(t);
   }
   Mesh part = mesh_with_boundary(values_at(mesh.points, kept), triangles);
-  part.given = at_nodes(mesh.given, kept);
-  part.density = values_at(mesh.density, kept);
-  part.columns = at_nodes(mesh.columns, kept);
-  std::vector<double> layers;
-  for (const std::size_t i : kept) layers.push_back(mesh.layers[i]);
+  static_cast<NodeValues&>(part) = at_nodes(mesh, kept);
   if (find(part.columns, kBdyMaskCell) == nullptr)
-    part.columns.push_back(whole_numbers(kBdyMaskCell, "0: region, 1 to 7: layers around it", layers));
-  part.notes = mesh.notes;
-  part.radius = mesh.radius;
-  part.nominal = mesh.nominal;
+    part.columns.push_back(whole_numbers(kBdyMaskCell, "0: region, 1 to 7: layers around it",
+                                         {part.layers.begin(), part.layers.end()}));
+  part.layers.clear();
   part.variant = mesh.variant;
   return part;
 }

@@ -57,9 +57,7 @@ class MapLines {
   std::vector<MapRing> lines(std::int32_t from, std::int32_t to) const;
 
  private:
-  const Point& point(std::int32_t corner) const {
-    return faces_.points[static_cast<std::size_t>(corner) - 1];
-  }
+  const Point& point(std::int32_t corner) const { return faces_.numbered(corner); }
   MapCorner at(std::int32_t corner) const { return corner_at(faces_, corner, angles_); }
   /// The corners that an arc gets between its ends.
   MapRing corners_between(std::int32_t from, std::int32_t to) const;

@@ -36,15 +36,6 @@ inline double volume(const pstripack::Point& a, const pstripack::Point& b, const
 
 inline double length(const pstripack::Point& p) { return std::sqrt(dot(p, p)); }
 
-/// The chord between c and the nearest point of the arc from a to b. Computed from differences, so that small
-/// distances keep their digits.
-inline double distance_to_arc(const pstripack::Point& c, const pstripack::Point& a,
-                              const pstripack::Point& b) {
-  const pstripack::Point n = cross(a, minus(b, a)), from_a = minus(c, a), from_b = minus(c, b);
-  const bool is_beside = dot(cross(n, a), from_a) >= 0 && dot(cross(n, b), from_b) <= 0;
-  return is_beside ? std::fabs(dot(n, from_a)) / length(n) : std::min(length(from_a), length(from_b));
-}
-
 /// Area of the spherical triangle in steradians; positive if counterclockwise (van Oosterom & Strackee 1983).
 /// Computed from differences of the corners, so that small triangles keep their digits.
 inline double triangle_area(const pstripack::Point& a, const pstripack::Point& b, const pstripack::Point& c) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -67,23 +66,23 @@ struct Step {
 std::vector<std::int32_t> ring_of(std::int32_t node, const Step* begin, const Step* end) {
   const auto fail = [&](const char* what) { throw NoMesh(fmt::format("node {}: {}", node, what)); };
   if (begin == end) fail("is the corner of no triangle");
-  std::vector<std::int32_t> left, reached, first;
-  for (const Step* s = begin; s != end; ++s) left.push_back(s->from), reached.push_back(s->to);
-  if (std::adjacent_find(left.begin(), left.end()) != left.end())
-    fail("an arc has two triangles on one side");
+  std::vector<std::int32_t> reached;
+  for (const Step* s = begin; s != end; ++s) reached.push_back(s->to);
   std::sort(reached.begin(), reached.end());
-  std::set_difference(left.begin(), left.end(), reached.begin(), reached.end(), std::back_inserter(first));
-  if (first.size() > 1) fail("its triangles are not one fan");
-  const bool at_boundary = !first.empty();
-  std::vector<std::int32_t> ring{at_boundary ? first[0] : left[0]};
-  const std::size_t length = left.size() + first.size();
-  while (ring.size() <= length) {
-    const Step* const step = std::lower_bound(begin, end, Step{node, ring.back(), 0});
-    if (step == end || step->from != ring.back() || step->to == ring[0]) break;
+  const Step* step = begin;
+  std::size_t fans = 0, length = reached.size();
+  for (const Step* s = begin; s != end; ++s) {
+    if (s + 1 != end && s->from == s[1].from) fail("an arc has two triangles on one side");
+    if (!std::binary_search(reached.begin(), reached.end(), s->from)) step = s, ++fans, ++length;
+  }
+  if (fans > 1) fail("its triangles are not one fan");
+  std::vector<std::int32_t> ring{step->from};
+  while (step != end && step->from == ring.back() && step->to != ring[0] && ring.size() <= length) {
     ring.push_back(step->to);
+    step = std::lower_bound(begin, end, Step{node, step->to, 0});
   }
   if (ring.size() != length) fail("its triangles are not one cycle");
-  if (at_boundary) ring.back() = -ring.back();
+  if (fans > 0) ring.back() = -ring.back();
   return ring;
 }
 
@@ -118,15 +117,15 @@ std::vector<Duplicate> duplicates(const std::vector<Point>& points) {
   pstripack::Workspace workspace(pstripack::workspace_bytes(points.size()));
   const pstripack::Hull hull =
       off_one_great_circle([&] { return pstripack::delaunay(points.data(), points.size(), workspace); });
-  std::map<pstripack::index_t, pstripack::index_t> first;  // key: the node that the kernel inserted
-  for (const auto& [in, out] : hull.coincident)
-    first[in] = std::min({first.try_emplace(in, in).first->second, in, out});
+  std::map<pstripack::index_t, std::vector<pstripack::index_t>> same;  // key: the node that was inserted
+  for (const auto& [in, out] : hull.coincident) same[in].push_back(out);
   std::vector<Duplicate> later;
-  const auto add = [&](pstripack::index_t node, pstripack::index_t least) {
-    if (node != least) later.push_back({static_cast<std::size_t>(node), static_cast<std::size_t>(least)});
-  };
-  for (const auto& [in, out] : hull.coincident) add(out, first[in]);
-  for (const auto& [in, least] : first) add(in, least);
+  for (auto& [in, nodes] : same) {
+    nodes.push_back(in);
+    const pstripack::index_t first = *std::min_element(nodes.begin(), nodes.end());
+    for (const pstripack::index_t node : nodes)
+      if (node != first) later.push_back({static_cast<std::size_t>(node), static_cast<std::size_t>(first)});
+  }
   std::sort(later.begin(), later.end(),
             [](const Duplicate& a, const Duplicate& b) { return a.node < b.node; });
   return later;
@@ -283,10 +282,6 @@ void expect_whole_sphere(const std::vector<double>& areas) {
                     "report these nodes",
                     sum));
 }
-
-}  // namespace
-
-namespace {
 
 /// Gives the cells, which have none, their corners: the circumcentres of the triangles.
 void add_corners(Faces& cells, const Mesh& mesh, const pstripack::Directions& directions) {

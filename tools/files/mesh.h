@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <functional>
 #include <stdexcept>
-#include <tuple>
 #include <vector>
 
 #include "files/measures.h"
@@ -24,15 +23,8 @@ struct Variant {
 };
 
 /// Nodes and the canonical lists of their triangulation.
-struct Mesh {
-  std::vector<Point> points;         ///< as given
-  LonLat given;                      ///< longitudes and latitudes, if the input had them
-  std::vector<double> density;       ///< of each node; empty: unknown
-  Columns columns;                   ///< values of each node
-  std::vector<std::int32_t> layers;  ///< of each node in a limited area (limited_area.h); empty: none
-  Notes notes;
-  double radius = 1;   ///< of the sphere in MPAS files
-  double nominal = 0;  ///< width of cells of density 1, radians; 0: unknown
+struct Mesh : NodeValues {
+  std::vector<Point> points;  ///< as given
   Variant variant = {};
   double longest = 0;  ///< radians: triangles with a longer side are no faces; 0: all are
   std::vector<std::int32_t> list, lptr, lend;
@@ -114,8 +106,9 @@ struct Faces {
   std::size_t node_of(std::size_t f) const { return nodes.empty() ? f : nodes[f]; }
   std::size_t corners(std::size_t f) const { return begin[f + 1] - begin[f]; }
   std::size_t most_corners() const;
-  /// The point of corner[k].
-  const Point& point(std::size_t k) const { return points[static_cast<std::size_t>(corner[k]) - 1]; }
+  /// The point with this number, and that of corner[k].
+  const Point& numbered(std::int32_t point) const { return points[static_cast<std::size_t>(point) - 1]; }
+  const Point& point(std::size_t k) const { return numbered(corner[k]); }
   /// The place in `corner`, behind k, of the next corner of face f.
   std::size_t after(std::size_t f, std::size_t k) const { return k + 1 < begin[f + 1] ? k + 1 : begin[f]; }
   /// Calls visit(f, k) for all faces f and their places k in `corner`.
@@ -123,15 +116,6 @@ struct Faces {
   void for_each_corner(const Visit& visit) const {
     for (std::size_t f = 0; f < size(); ++f)
       for (std::size_t k = begin[f]; k < begin[f + 1]; ++k) visit(f, k);
-  }
-};
-
-/// The side of a face that begins at its corner[slot], between the corners `low` and `high`.
-struct FaceSide {
-  std::int32_t low, high;
-  std::size_t face, slot;
-  bool operator<(const FaceSide& o) const {
-    return std::tie(low, high, slot) < std::tie(o.low, o.high, o.slot);
   }
 };
 

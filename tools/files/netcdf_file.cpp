@@ -33,38 +33,28 @@ std::string_view mapped(const std::string& name) {
 }
 
 /// What NetCDF's types of numbers hold, by nc_type.
-struct TypeOfNumbers {
-  int bits;  ///< of integers; 0: floating point
-  bool is_signed;
-  double fill;  ///< the library's
-};
-constexpr TypeOfNumbers kTypes[] = {{},
-                                    {8, true, NC_FILL_BYTE},
-                                    {},
-                                    {16, true, NC_FILL_SHORT},
-                                    {32, true, NC_FILL_INT},
-                                    {0, true, NC_FILL_FLOAT},
-                                    {0, true, NC_FILL_DOUBLE},
-                                    {8, false, NC_FILL_UBYTE},
-                                    {16, false, NC_FILL_USHORT},
-                                    {32, false, NC_FILL_UINT},
-                                    {64, true, static_cast<double>(NC_FILL_INT64)},
-                                    {64, false, static_cast<double>(NC_FILL_UINT64)}};
+constexpr int kBits[] = {0, 8, 0, 16, 32, 0, 0, 8, 16, 32, 64, 64};  // of integers; 0: floating point
 
 /// The stored numbers of a variable as its type and `_Unsigned` mean them.
 struct Stored {
-  const TypeOfNumbers& type;
-  bool is_float, is_unsigned;
+  int bits;  ///< of integers; 0: floating point
+  bool is_float, has_sign, is_unsigned;
+  double count;  ///< of the integers of the type
+  double fill;   ///< the library's fill value
 
-  Stored(nc_type of, const std::string& attribute)
-      : type(kTypes[of]),
-        is_float(of == NC_FLOAT),
-        is_unsigned(type.is_signed ? attribute == "true" || attribute == "True"
-                                   : attribute != "false" && attribute != "False") {}
+  Stored(nc_type type, const std::string& attribute)
+      : bits(kBits[type]),
+        is_float(type == NC_FLOAT),
+        has_sign(type <= NC_DOUBLE || type == NC_INT64),
+        is_unsigned(has_sign ? attribute == "true" || attribute == "True"
+                             : attribute != "false" && attribute != "False"),
+        count(std::ldexp(1, bits)),
+        fill(bits == 0  ? NC_FILL_DOUBLE
+             : has_sign ? 1 - count / 2
+                        : count - 1) {}
   double number(double value) const {
     if (is_float) return static_cast<double>(static_cast<float>(value));
-    if (type.bits == 0 || is_unsigned != type.is_signed) return value;
-    const double count = std::ldexp(1, type.bits);
+    if (bits == 0 || is_unsigned != has_sign) return value;
     if (is_unsigned) return value < 0 ? value + count : value;
     return value >= count / 2 ? value - count : value;
   }
@@ -111,13 +101,11 @@ void NetcdfFile::add_group(int group, const std::string& path) {
   int count = 0;
   check("", nc_inq_nvars(group, &count));
   for (int id = 0; id < count; ++id) {
-    check("", nc_inq_varname(group, id, name));
-    NetcdfVariable& v = variables_.emplace_back(NetcdfVariable{path + name, group, id});
-    int rank = 0;
-    check(v.path, nc_inq_vartype(group, id, &v.type));
-    check(v.path, nc_inq_varndims(group, id, &rank));
-    v.dimensions.resize(static_cast<std::size_t>(rank));
-    check(v.path, nc_inq_vardimid(group, id, v.dimensions.data()));
+    nc_type type = NC_CHAR;
+    int rank = 0, dimensions[NC_MAX_VAR_DIMS];
+    check("", nc_inq_var(group, id, name, &type, &rank, dimensions, nullptr));
+    NetcdfVariable& v = variables_.emplace_back(
+        NetcdfVariable{path + name, group, id, type, {dimensions, dimensions + rank}});
     for (const int dimension : v.dimensions) v.lengths.push_back(length_of(dimension));
   }
   check("", nc_inq_grps(group, &count, nullptr));
@@ -129,12 +117,10 @@ void NetcdfFile::add_group(int group, const std::string& path) {
   }
 }
 
-void NetcdfFile::fail(const std::string& what) const { throw std::runtime_error(name_ + ": " + what); }
-
 void NetcdfFile::check(const std::string& variable, int status) const {
   if (status != NC_NOERR)
-    fail((variable.empty() ? "" : "variable " + excerpt(variable) + ": ") +
-         (status == EPERM ? "incomplete NetCDF file: it ends before its last value" : nc_strerror(status)));
+    fail("{}{}", variable.empty() ? "" : "variable " + excerpt(variable) + ": ",
+         status == EPERM ? "incomplete NetCDF file: it ends before its last value" : nc_strerror(status));
 }
 
 std::vector<std::string> NetcdfFile::names() const {
@@ -169,8 +155,8 @@ const NetcdfVariable* NetcdfFile::find(const std::string& name, const NetcdfVari
 const NetcdfVariable& NetcdfFile::variable(const std::string& name, const NetcdfVariable* from) const {
   const NetcdfVariable* const found = find(name, from);
   if (found == nullptr)
-    fail(fmt::format("there is no variable '{}'{}; the file has {}", excerpt(name),
-                     did_you_mean(name, names()), listed(names())));
+    fail("there is no variable '{}'{}; the file has {}", excerpt(name), did_you_mean(name, names()),
+         listed(names()));
   return *found;
 }
 
@@ -234,7 +220,7 @@ std::vector<double> NetcdfFile::values(const NetcdfVariable& v) const {
 
   const Stored stored(v.type, text(v, "_Unsigned"));
   std::vector<double> missing = numbers(v, "_FillValue");
-  if (missing.empty() && stored.type.bits != 8) missing.push_back(stored.type.fill);
+  if (missing.empty() && stored.bits != 8) missing.push_back(stored.fill);
   for (const double value : numbers(v, "missing_value")) missing.push_back(value);
   for (double& value : missing) value = stored.number(value);
 
@@ -244,7 +230,7 @@ std::vector<double> NetcdfFile::values(const NetcdfVariable& v) const {
   nc_type type = v.type;
   for (const char* const attribute : {"valid_range", "valid_min", "valid_max"})
     nc_inq_atttype(v.group, v.id, attribute, &type);
-  const bool is_unpacked_range = packed && stored.type.bits > 0 && (type == NC_FLOAT || type == NC_DOUBLE);
+  const bool is_unpacked_range = packed && stored.bits > 0 && (type == NC_FLOAT || type == NC_DOUBLE);
   if (range.size() != 2) range = {number(v, "valid_min", -INFINITY), number(v, "valid_max", INFINITY)};
   if (!is_unpacked_range)
     for (double& bound : range) bound = std::isfinite(bound) ? stored.number(bound) : bound;
@@ -301,8 +287,7 @@ std::vector<std::string> NetcdfFile::texts(const NetcdfVariable& v) const {
 std::size_t NetcdfFile::expect_few(const NetcdfVariable& v, std::size_t rows, std::size_t row) const {
   constexpr std::size_t most = pstripack::most_nodes<std::int32_t>();
   if (rows > most / std::max<std::size_t>(row, 1))
-    fail(fmt::format("variable {}: {} times {} values; there can be {} nodes at most", excerpt(v.path), rows,
-                     row, most));
+    fail("variable {}: {} times {} values; there can be {} nodes at most", excerpt(v.path), rows, row, most);
   return rows;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "files/nodes.h"
+#include "files/text_file.h"
 
 namespace files {
 
@@ -39,7 +40,10 @@ class NetcdfFile {
   NetcdfFile& operator=(const NetcdfFile&) = delete;
 
   const ReadOptions& options() const { return options_; }
-  [[noreturn]] void fail(const std::string& what) const;
+  template <class... Values>
+  [[noreturn]] void fail(fmt::format_string<Values...> what, Values&&... values) const {
+    files::fail(name_, what, std::forward<Values>(values)...);
+  }
 
   const std::vector<NetcdfVariable>& variables() const { return variables_; }
   std::vector<std::string> names() const;

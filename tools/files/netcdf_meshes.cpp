@@ -1,7 +1,6 @@
 // Writers of NetCDF: UGRID, SCRIP, ESMF, and nodes alone.
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -31,7 +30,7 @@ int add_corners(NetcdfWriter& out, const std::string& name, const NetcdfWriter::
 
 }  // namespace
 
-void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<Point>& vectors,
+void write_ugrid(OutputFile& file, const Faces& faces, const std::vector<Point>& vectors,
                  const std::vector<double>& density, const Notes& notes) {
   const bool has_centres = !faces.centres.empty();
   const std::vector<std::int32_t> zero{0};
@@ -122,7 +121,7 @@ LonLat centres_of(const Faces& faces) {
 
 }  // namespace
 
-void write_scrip(const OutputFile& file, const Faces& faces, const Notes& notes) {
+void write_scrip(OutputFile& file, const Faces& faces, const Notes& notes) {
   const Faces rings = without_short_sides(faces);
   const LonLat of_centres = centres_of(faces), of_points = angles_of(faces.points, faces.given_points, true);
   const std::size_t width = rings.most_corners();
@@ -150,7 +149,7 @@ void write_scrip(const OutputFile& file, const Faces& faces, const Notes& notes)
   out.write();
 }
 
-void write_esmf(const OutputFile& file, const Faces& faces, const Notes& notes) {
+void write_esmf(OutputFile& file, const Faces& faces, const Notes& notes) {
   const Faces rings = without_short_sides(faces);
   const LonLat of_centres = centres_of(faces), of_points = angles_of(faces.points, faces.given_points, true);
   const std::vector<std::int32_t> mask(faces.size(), 1);
@@ -180,7 +179,7 @@ void write_esmf(const OutputFile& file, const Faces& faces, const Notes& notes) 
   out.write();
 }
 
-void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>& points, const NodeValues& values) {
+void write_netcdf_nodes(OutputFile& file, const std::vector<Point>& points, const NodeValues& values) {
   const bool degrees = values.given.empty() || values.given.degrees;
   const LonLat angles = angles_of(points, values.given, degrees);
   NetcdfWriter out(file);
@@ -194,7 +193,7 @@ void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>& points
   out.write();
 }
 
-void write_netcdf_field(const OutputFile& file, const LonLat& places, const Grid& grid, const Field& field) {
+void write_netcdf_field(OutputFile& file, const LonLat& places, const Grid& grid, const Field& field) {
   const bool is_grid = !grid.lon.empty();
   const std::vector<double>&lon = is_grid ? grid.lon : places.lon, &lat = is_grid ? grid.lat : places.lat;
   const Columns table = field.table();
@@ -220,9 +219,8 @@ struct End {
   End(const WeightsEnd& here, const std::vector<std::int32_t>& entries)
       : shape(here.shape.rbegin(), here.shape.rend()) {  // the fastest dimension first
     if (shape.empty()) shape.push_back(static_cast<std::int32_t>(here.at.lon.size()));
-    const std::size_t size = std::accumulate(
-        shape.begin(), shape.end(), std::size_t{1},
-        [](std::size_t product, std::int32_t n) { return product * static_cast<std::size_t>(n); });
+    std::size_t size = 1;
+    for (const std::int32_t n : shape) size *= static_cast<std::size_t>(n);
     mask.resize(size);
     frac.resize(size);
     lon.resize(size, std::nan(""));
@@ -271,7 +269,7 @@ struct End {
 
 }  // namespace
 
-void write_weights(const OutputFile& file, const Weights& weights, const WeightsEnd& nodes,
+void write_weights(OutputFile& file, const Weights& weights, const WeightsEnd& nodes,
                    const WeightsEnd& places, const std::string& history) {
   std::vector<std::int32_t> cols, rows;
   for (const std::int32_t node : weights.node)

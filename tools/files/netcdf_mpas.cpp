@@ -40,21 +40,20 @@ std::string file_id_of(std::initializer_list<std::pair<const void*, std::size_t>
 /// them, then a line of neighbours for each cell, for which neighbours(cell, take) calls take(neighbour from
 /// 1).
 template <class Neighbours>
-void write_graph(const OutputFile& beside, std::size_t cells, std::size_t edges,
-                 const Neighbours& neighbours) {
+void write_graph(OutputFile& beside, std::size_t cells, const Neighbours& neighbours) {
   if (!beside.has_a_name()) return;
   std::string name = beside.name();
   for (const std::string suffix : {".nc", ".mpas"})
     if (name.size() > suffix.size() && name.compare(name.size() - suffix.size(), suffix.npos, suffix) == 0)
       name.resize(name.size() - suffix.size());
   OutputFile file(name + ".graph.info");
-  TextWriter out(file);
-  out.print("{} {}\n", cells, edges);
+  std::size_t entries = 0;  // two for each edge
+  for (std::size_t c = 0; c < cells; ++c) neighbours(c, [&](MpasMesh::Index) { ++entries; });
+  file.print("{} {}\n", cells, entries / 2);
   for (std::size_t c = 0; c < cells; ++c) {
-    neighbours(c, [&](MpasMesh::Index other) { out.print("{} ", other); });
-    out.print("\n");
+    neighbours(c, [&](MpasMesh::Index other) { file.print("{} ", other); });
+    file.print("\n");
   }
-  out.close();
   file.commit();
 }
 
@@ -73,7 +72,171 @@ double from_0(double lon) {
   return lon >= 0 ? lon : lon + kTurn < kTurn ? lon + kTurn : 0;
 }
 
-void write(const OutputFile& file, const MpasMesh& mesh, const MpasValues& values) {
+// ---- a part of a file -----------------------------------------------------------------------------------
+
+constexpr const char *kOf[] = {"Cell", "Edge", "Vertex"}, *kRows[] = {"nCells", "nEdges", "nVertices"},
+                     *kLists[] = {"cellsOn", "edgesOn", "verticesOn"};
+
+/// The rows of cells, edges or vertices that stay.
+struct Rows {
+  std::vector<std::size_t> kept;
+  std::vector<MpasMesh::Index> number;  ///< of row i - 1: its number, from 1, among these; 0: left out
+  std::vector<MpasMesh::Index> layers;  ///< of those that stay: the least layer of their cells
+
+  /// `cells`: so many of each row; 0: none. `layers_of_cells`: of all.
+  Rows(const std::vector<double>& cells, std::size_t width,
+       const std::vector<MpasMesh::Index>& layers_of_cells)
+      : number(cells.size() / width + 1) {
+    for (std::size_t i = 0; i + 1 < number.size(); ++i) {
+      MpasMesh::Index least = kLayers + 1;
+      for (std::size_t k = i * width; k < (i + 1) * width; ++k)
+        if (cells[k] >= 1)
+          if (const auto layer = layers_of_cells.at(static_cast<std::size_t>(cells[k]) - 1);
+              layer != kLeftOut)
+            least = std::min(least, layer);
+      if (least > kLayers) continue;
+      kept.push_back(i);
+      layers.push_back(least);
+      number[i + 1] = static_cast<MpasMesh::Index>(kept.size());
+    }
+  }
+};
+
+/// Copies the values of a variable: of its dimension `cut` those rows, if there are some, and indices as
+/// `numbers`, if that is set.
+void copy_values(const NetcdfFile& from, const NetcdfVariable& v, int to, int variable, std::size_t cut,
+                 const Rows* rows, const Rows* numbers) {
+  const auto check = [&](int status) { from.check(v.path, status); };
+  std::size_t outer = 1, row = 0;  // slabs with all rows; bytes of a row
+  check(nc_inq_type(v.group, v.type, nullptr, &row));
+  std::vector<std::size_t> start(v.lengths.size()), count = v.lengths, kept = v.lengths;
+  for (std::size_t d = 0; d < v.lengths.size(); ++d)
+    if (d < cut)
+      outer *= std::exchange(count[d], 1), kept[d] = 1;
+    else if (d > cut || rows == nullptr)
+      row *= count[d];
+  if (rows != nullptr) kept[cut] = rows->kept.size();
+  std::vector<char> bytes(row * (rows == nullptr ? 1 : count[cut]));
+  for (std::size_t slab = 0; slab < outer; ++slab) {
+    for (std::size_t d = cut, rest = slab; d-- > 0; rest /= v.lengths[d]) start[d] = rest % v.lengths[d];
+    check(nc_get_vara(v.group, v.id, start.data(), count.data(), bytes.data()));
+    for (std::size_t k = 0; rows != nullptr && k < rows->kept.size(); ++k)
+      std::memmove(bytes.data() + k * row, bytes.data() + rows->kept[k] * row, row);
+    auto* const index = reinterpret_cast<MpasMesh::Index*>(bytes.data());
+    for (std::size_t k = 0; numbers != nullptr && k < bytes.size() / sizeof *index; ++k)
+      index[k] = index[k] > 0 ? numbers->number.at(static_cast<std::size_t>(index[k])) : 0;
+    check(nc_put_vara(to, variable, start.data(), kept.data(), bytes.data()));
+  }
+}
+
+}  // namespace
+
+bool is_mpas_mesh(const Nodes& nodes) {
+  for (const char* const of : {"cellsOnCell", "cellsOnEdge", "cellsOnVertex", "edgesOnCell", "edgesOnEdge",
+                               "edgesOnVertex", "verticesOnCell", "verticesOnEdge", "nEdgesOnCell"})
+    if (std::find(nodes.variables.begin(), nodes.variables.end(), of) == nodes.variables.end()) return false;
+  return is_netcdf(nodes.file);
+}
+
+void write_mpas_area(OutputFile& file, const std::string& from, const std::vector<std::int32_t>& layers,
+                     const Notes& notes) {
+  using Index = MpasMesh::Index;
+  const ReadOptions options;
+  const NetcdfFile all(from, "", options);
+  const NetcdfVariable global = all.global();
+  const auto table = [&](const char* name) { return all.values(all.variable(name)); };
+  std::vector<double> each(layers.size());
+  std::iota(each.begin(), each.end(), 1);
+  const std::vector<double> of_edges = table("cellsOnEdge"), of_vertices = table("cellsOnVertex");
+  const Rows rows[] = {{each, 1, layers}, {of_edges, 2, layers}, {of_vertices, 3, layers}};
+  const auto number = [&](double cell) {
+    return cell >= 1 ? rows[0].number.at(static_cast<std::size_t>(cell)) : 0;
+  };
+
+  NetcdfWriter out(file, NC_64BIT_DATA);
+  int count = 0, record = -1;
+  nc_inq_unlimdim(global.group, &record);
+  nc_inq_ndims(global.group, &count);
+  std::map<int, std::size_t> cut;  // dimensions of cells, edges and vertices
+  std::vector<int> ids(static_cast<std::size_t>(count));
+  nc_inq_dimids(global.group, &count, ids.data(), 0);
+  std::map<int, int> dimension;  // of the output, by that of the input
+  for (const int id : ids) {
+    const std::string name = all.dimension_name(id);
+    const auto k = static_cast<std::size_t>(std::find(std::begin(kRows), std::end(kRows), name) - kRows);
+    if (k < 3) cut[id] = k;
+    dimension[id] = out.dimension(name, k < 3          ? rows[k].kept.size()
+                                        : id == record ? NC_UNLIMITED
+                                                       : all.length_of(id));
+  }
+  if (cut.size() < 3) all.fail("expected dimensions nCells, nEdges and nVertices");
+  const auto copy_attributes = [&](const NetcdfVariable& v, int to) {
+    for (const std::string& name : all.attributes(v)) {
+      nc_type type = NC_CHAR;
+      nc_inq_atttype(v.group, v.id, name.c_str(), &type);
+      if (type == NC_STRING)
+        out.attribute(to, name.c_str(), all.text(v, name.c_str()));
+      else
+        out.attribute(to, name.c_str(), v.group, v.id);
+    }
+  };
+  copy_attributes(global, NC_GLOBAL);
+  out.attributes(notes);
+  const std::string parent = all.text(global, "file_id");
+  out.attribute(NC_GLOBAL, "file_id",
+                file_id_of({{layers.data(), 4 * layers.size()}, {parent.data(), parent.size()}}));
+
+  std::set<std::string> own{"boundaryVertex"};
+  for (const std::string of : kOf) own.insert({"bdyMask" + of, "mapCulledToBase" + of});
+  for (const NetcdfVariable& v : all.variables()) {
+    const auto is_cut = [&](int id) { return cut.count(id) > 0; };
+    const auto cuts = std::count_if(v.dimensions.begin(), v.dimensions.end(), is_cut);
+    if (own.count(v.path) > 0 || v.path.find('/') != v.path.npos || v.type > NC_UINT64 || cuts > 1) continue;
+    const auto first = std::find_if(v.dimensions.begin(), v.dimensions.end(), is_cut);
+    const Rows* const kept = cuts == 0 ? nullptr : &rows[cut[*first]];
+    const Rows* numbers = nullptr;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (v.type == NC_INT && cuts > 0 &&
+          (v.path.rfind(kLists[k], 0) == 0 || v.path == fmt::format("indexTo{}ID", kOf[k])))
+        numbers = &rows[k];
+    NetcdfWriter::Dimensions of_variable;
+    for (const int id : v.dimensions) of_variable.push_back(dimension[id]);
+    const int variable = out.define(v.path, v.type, of_variable);
+    copy_attributes(v, variable);
+    const auto at = static_cast<std::size_t>(cuts == 0 ? 0 : first - v.dimensions.begin());
+    out.add([=, &all, &v](int to) { copy_values(all, v, to, variable, at, kept, numbers); });
+  }
+  for (const auto& [id, of] : cut) {
+    const auto add = [&, k = of, to = dimension[id]](const std::string& name, const char* what,
+                                                     const auto& value) {
+      out.rows<Index>(name, {to}, {{"units", "1"}, {"long_name", what}},
+                      [&rows, k, value](std::size_t i, Index* at) { *at = value(rows[k], i); });
+    };
+    add(std::string("bdyMask") + kOf[of],
+        of == 0 ? "0: region, 1 to 7: layers around it" : "least bdyMaskCell of its cells",
+        [](const Rows& here, std::size_t i) { return here.layers[i]; });
+    add(std::string("mapCulledToBase") + kOf[of], "its place, from 0, in the mesh before the cut",
+        [](const Rows& here, std::size_t i) { return static_cast<Index>(here.kept[i]); });
+    if (of == 2 && all.find("boundaryVertex") != nullptr)
+      add("boundaryVertex", "1: the vertex lies at the boundary",
+          [&](const Rows& here, std::size_t i) -> Index {
+            const double* const cells = &of_vertices[3 * here.kept[i]];
+            return std::any_of(cells, cells + 3, [&](double cell) { return number(cell) == 0; });
+          });
+  }
+  out.write();
+
+  const std::vector<double> sides = table("nEdgesOnCell"), cells = table("cellsOnCell");
+  write_graph(file, rows[0].kept.size(), [&](std::size_t c, const auto& take) {
+    const std::size_t row = rows[0].kept[c], width = cells.size() / sides.size();
+    for (std::size_t k = row * width; k < row * width + static_cast<std::size_t>(sides[row]); ++k)
+      if (const Index other = number(cells[k]); other > 0) take(other);
+  });
+}
+
+// ---- a whole mesh ----------------------------------------------------------------------------------------
+
+void write_mpas(OutputFile& file, const MpasMesh& mesh, const NodeValues& values) {
   using Index = MpasMesh::Index;
   const auto at = [](Index i) { return static_cast<std::size_t>(i); };
   const double radius = values.radius, square = radius * radius;
@@ -242,178 +405,7 @@ void write(const OutputFile& file, const MpasMesh& mesh, const MpasValues& value
     table(0.0, "nominalMinDc", {}, "m", "width of cells of density 1",
           [=](std::size_t, double* to) { *to = nominal; });
   out.write();
-}
-
-// ---- a part of a file -----------------------------------------------------------------------------------
-
-constexpr const char *kOf[] = {"Cell", "Edge", "Vertex"}, *kRows[] = {"nCells", "nEdges", "nVertices"},
-                     *kLists[] = {"cellsOn", "edgesOn", "verticesOn"};
-
-/// The rows of cells, edges or vertices that stay.
-struct Rows {
-  std::vector<std::size_t> kept;
-  std::vector<MpasMesh::Index> number;  ///< of row i - 1: its number, from 1, among these; 0: left out
-  std::vector<MpasMesh::Index> layers;  ///< of those that stay: the least layer of their cells
-
-  /// `cells`: so many of each row; 0: none. `layers_of_cells`: of all.
-  Rows(const std::vector<double>& cells, std::size_t width,
-       const std::vector<MpasMesh::Index>& layers_of_cells)
-      : number(cells.size() / width + 1) {
-    for (std::size_t i = 0; i + 1 < number.size(); ++i) {
-      MpasMesh::Index least = kLayers + 1;
-      for (std::size_t k = i * width; k < (i + 1) * width; ++k)
-        if (cells[k] >= 1)
-          if (const auto layer = layers_of_cells.at(static_cast<std::size_t>(cells[k]) - 1);
-              layer != kLeftOut)
-            least = std::min(least, layer);
-      if (least > kLayers) continue;
-      kept.push_back(i);
-      layers.push_back(least);
-      number[i + 1] = static_cast<MpasMesh::Index>(kept.size());
-    }
-  }
-};
-
-/// Copies the values of a variable: of its dimension `cut` those rows, if there are some, and indices as
-/// `numbers`, if that is set.
-void copy_values(const NetcdfFile& from, const NetcdfVariable& v, int to, int variable, std::size_t cut,
-                 const Rows* rows, const Rows* numbers) {
-  const auto check = [&](int status) { from.check(v.path, status); };
-  std::size_t outer = 1, row = 0;  // slabs with all rows; bytes of a row
-  check(nc_inq_type(v.group, v.type, nullptr, &row));
-  std::vector<std::size_t> start(v.lengths.size()), count = v.lengths, kept = v.lengths;
-  for (std::size_t d = 0; d < v.lengths.size(); ++d)
-    if (d < cut)
-      outer *= std::exchange(count[d], 1), kept[d] = 1;
-    else if (d > cut || rows == nullptr)
-      row *= count[d];
-  if (rows != nullptr) kept[cut] = rows->kept.size();
-  std::vector<char> bytes(row * (rows == nullptr ? 1 : count[cut]));
-  for (std::size_t slab = 0; slab < outer; ++slab) {
-    for (std::size_t d = cut, rest = slab; d-- > 0; rest /= v.lengths[d]) start[d] = rest % v.lengths[d];
-    check(nc_get_vara(v.group, v.id, start.data(), count.data(), bytes.data()));
-    for (std::size_t k = 0; rows != nullptr && k < rows->kept.size(); ++k)
-      std::memmove(bytes.data() + k * row, bytes.data() + rows->kept[k] * row, row);
-    auto* const index = reinterpret_cast<MpasMesh::Index*>(bytes.data());
-    for (std::size_t k = 0; numbers != nullptr && k < bytes.size() / sizeof *index; ++k)
-      index[k] = index[k] > 0 ? numbers->number.at(static_cast<std::size_t>(index[k])) : 0;
-    check(nc_put_vara(to, variable, start.data(), kept.data(), bytes.data()));
-  }
-}
-
-}  // namespace
-
-bool is_mpas_mesh(const Nodes& nodes) {
-  for (const char* const of : {"cellsOnCell", "cellsOnEdge", "cellsOnVertex", "edgesOnCell", "edgesOnEdge",
-                               "edgesOnVertex", "verticesOnCell", "verticesOnEdge", "nEdgesOnCell"})
-    if (std::find(nodes.variables.begin(), nodes.variables.end(), of) == nodes.variables.end()) return false;
-  return is_netcdf(nodes.file);
-}
-
-void write_mpas_area(const OutputFile& file, const std::string& from, const std::vector<std::int32_t>& layers,
-                     const Notes& notes) {
-  using Index = MpasMesh::Index;
-  const ReadOptions options;
-  const NetcdfFile all(from, "", options);
-  const NetcdfVariable global = all.global();
-  const auto table = [&](const char* name) { return all.values(all.variable(name)); };
-  std::vector<double> each(layers.size());
-  std::iota(each.begin(), each.end(), 1);
-  const std::vector<double> of_edges = table("cellsOnEdge"), of_vertices = table("cellsOnVertex");
-  const Rows rows[] = {{each, 1, layers}, {of_edges, 2, layers}, {of_vertices, 3, layers}};
-  const auto number = [&](double cell) {
-    return cell >= 1 ? rows[0].number.at(static_cast<std::size_t>(cell)) : 0;
-  };
-
-  NetcdfWriter out(file, NC_64BIT_DATA);
-  int count = 0, record = -1;
-  nc_inq_unlimdim(global.group, &record);
-  nc_inq_ndims(global.group, &count);
-  std::map<int, std::size_t> cut;  // dimensions of cells, edges and vertices
-  std::vector<int> ids(static_cast<std::size_t>(count));
-  nc_inq_dimids(global.group, &count, ids.data(), 0);
-  std::map<int, int> dimension;  // of the output, by that of the input
-  for (const int id : ids) {
-    const std::string name = all.dimension_name(id);
-    const auto k = static_cast<std::size_t>(std::find(std::begin(kRows), std::end(kRows), name) - kRows);
-    if (k < 3) cut[id] = k;
-    dimension[id] = out.dimension(name, k < 3          ? rows[k].kept.size()
-                                        : id == record ? NC_UNLIMITED
-                                                       : all.length_of(id));
-  }
-  if (cut.size() < 3) all.fail("expected dimensions nCells, nEdges and nVertices");
-  const auto copy_attributes = [&](const NetcdfVariable& v, int to) {
-    for (const std::string& name : all.attributes(v)) {
-      nc_type type = NC_CHAR;
-      nc_inq_atttype(v.group, v.id, name.c_str(), &type);
-      if (type == NC_STRING)
-        out.attribute(to, name.c_str(), all.text(v, name.c_str()));
-      else
-        out.attribute(to, name.c_str(), v.group, v.id);
-    }
-  };
-  copy_attributes(global, NC_GLOBAL);
-  out.attributes(notes);
-  const std::string parent = all.text(global, "file_id");
-  out.attribute(NC_GLOBAL, "file_id",
-                file_id_of({{layers.data(), 4 * layers.size()}, {parent.data(), parent.size()}}));
-
-  std::set<std::string> own{"boundaryVertex"};
-  for (const std::string of : kOf) own.insert({"bdyMask" + of, "mapCulledToBase" + of});
-  for (const NetcdfVariable& v : all.variables()) {
-    const auto is_cut = [&](int id) { return cut.count(id) > 0; };
-    const auto cuts = std::count_if(v.dimensions.begin(), v.dimensions.end(), is_cut);
-    if (own.count(v.path) > 0 || v.path.find('/') != v.path.npos || v.type > NC_UINT64 || cuts > 1) continue;
-    const auto first = std::find_if(v.dimensions.begin(), v.dimensions.end(), is_cut);
-    const Rows* const kept = cuts == 0 ? nullptr : &rows[cut[*first]];
-    const Rows* numbers = nullptr;
-    for (std::size_t k = 0; k < 3; ++k)
-      if (v.type == NC_INT && cuts > 0 &&
-          (v.path.rfind(kLists[k], 0) == 0 || v.path == fmt::format("indexTo{}ID", kOf[k])))
-        numbers = &rows[k];
-    NetcdfWriter::Dimensions of_variable;
-    for (const int id : v.dimensions) of_variable.push_back(dimension[id]);
-    const int variable = out.define(v.path, v.type, of_variable);
-    copy_attributes(v, variable);
-    const auto at = static_cast<std::size_t>(cuts == 0 ? 0 : first - v.dimensions.begin());
-    out.add([=, &all, &v](int to) { copy_values(all, v, to, variable, at, kept, numbers); });
-  }
-  for (const auto& [id, of] : cut) {
-    const auto add = [&, k = of, to = dimension[id]](const std::string& name, const char* what,
-                                                     const auto& value) {
-      out.rows<Index>(name, {to}, {{"units", "1"}, {"long_name", what}},
-                      [&rows, k, value](std::size_t i, Index* at) { *at = value(rows[k], i); });
-    };
-    add(std::string("bdyMask") + kOf[of],
-        of == 0 ? "0: region, 1 to 7: layers around it" : "least bdyMaskCell of its cells",
-        [](const Rows& here, std::size_t i) { return here.layers[i]; });
-    add(std::string("mapCulledToBase") + kOf[of], "its place, from 0, in the mesh before the cut",
-        [](const Rows& here, std::size_t i) { return static_cast<Index>(here.kept[i]); });
-    if (of == 2 && all.find("boundaryVertex") != nullptr)
-      add("boundaryVertex", "1: the vertex lies at the boundary",
-          [&](const Rows& here, std::size_t i) -> Index {
-            const double* const cells = &of_vertices[3 * here.kept[i]];
-            return std::any_of(cells, cells + 3, [&](double cell) { return number(cell) == 0; });
-          });
-  }
-  out.write();
-
-  const std::vector<double> sides = table("nEdgesOnCell"), cells = table("cellsOnCell");
-  std::size_t inner = 0;
-  for (std::size_t e = 0; e < of_edges.size(); e += 2)
-    inner += number(of_edges[e]) > 0 && number(of_edges[e + 1]) > 0;
-  write_graph(file, rows[0].kept.size(), inner, [&](std::size_t c, const auto& take) {
-    const std::size_t row = rows[0].kept[c], width = cells.size() / sides.size();
-    for (std::size_t k = row * width; k < row * width + static_cast<std::size_t>(sides[row]); ++k)
-      if (const Index other = number(cells[k]); other > 0) take(other);
-  });
-}
-
-void write_mpas(const OutputFile& file, const MpasMesh& mesh, const MpasValues& values) {
-  write(file, mesh, values);
-  std::size_t edges = 0;
-  for (const MpasMesh::Two& cells : mesh.cells_on_edge) edges += cells[1] != MpasMesh::kNone;
-  write_graph(file, mesh.cells.size(), edges, [&](std::size_t c, const auto& take) {
+  write_graph(file, mesh.cells.size(), [&](std::size_t c, const auto& take) {
     for (std::int32_t k = mesh.begin[c]; k < mesh.begin[c + 1]; ++k)
       if (const std::int32_t other = mesh.across(mesh.edges_on_cell[static_cast<std::size_t>(k)], c);
           other >= 0)
@@ -421,16 +413,11 @@ void write_mpas(const OutputFile& file, const MpasMesh& mesh, const MpasValues& 
   });
 }
 
-void write_mpas(const OutputFile& file, const Mesh& mesh) {
+void write_mpas(OutputFile& file, const Mesh& mesh) {
   std::vector<std::size_t> kept;
   const MpasMesh complete = mpas_mesh(mesh, kept);
-  MpasValues values{mesh.given, mesh.density, mesh.notes, mesh.radius, mesh.layers, mesh.nominal};
-  if (!kept.empty()) {
-    values.layers = values_at(mesh.layers, kept);
-    for (auto* const of_nodes : {&values.given.lon, &values.given.lat, &values.density})
-      *of_nodes = values_at(*of_nodes, kept);
-  }
-  write_mpas(file, complete, values);
+  if (kept.empty()) return write_mpas(file, complete, mesh);
+  write_mpas(file, complete, at_nodes(mesh, kept));
 }
 
 }  // namespace files

@@ -33,9 +33,8 @@ std::vector<double> read_of_nodes(const File& file, const Variable& v) {
   std::vector<double> values = file.values(v);
   for (std::size_t i = 0; !file.options().keep_missing && i < values.size(); ++i)
     if (std::isnan(values[i]))
-      file.fail(
-          fmt::format("variable {}, value {}: missing or not finite: remove the node, or say --skip-missing",
-                      excerpt(v.path), i + 1));
+      file.fail("variable {}, value {}: missing or not finite: remove the node, or say --skip-missing",
+                excerpt(v.path), i + 1);
   return values;
 }
 
@@ -113,22 +112,20 @@ std::vector<int> dimensions_of_nodes(const Variable& lon, const Variable& lat) {
 }
 
 /// Usual names of longitudes and latitudes: of MPAS, CF, SCRIP, NEMO, ICON, WRF, and POP.
-constexpr std::pair<const char*, const char*> kUsual[] = {
-    {"lonCell", "latCell"},    {"lon", "lat"},
-    {"longitude", "latitude"}, {"grid_center_lon", "grid_center_lat"},
-    {"nav_lon", "nav_lat"},    {"glamt", "gphit"},
-    {"clon", "clat"},          {"XLONG", "XLAT"},
-    {"XLONG_M", "XLAT_M"},     {"TLONG", "TLAT"}};
+using PairOfNames = std::pair<std::string_view, std::string_view>;
+constexpr PairOfNames kUsual[] = {{"lonCell", "latCell"},    {"lon", "lat"},
+                                  {"longitude", "latitude"}, {"grid_center_lon", "grid_center_lat"},
+                                  {"nav_lon", "nav_lat"},    {"glamt", "gphit"},
+                                  {"clon", "clat"},          {"XLONG", "XLAT"},
+                                  {"XLONG_M", "XLAT_M"},     {"TLONG", "TLAT"}};
 
 /// Longitudes and latitudes; null: none.
 using Pair = std::pair<const Variable*, const Variable*>;
 
 /// The position of a pair in the list of usual names; behind its end if it is not there.
 std::ptrdiff_t rank_of(const Pair& pair) {
-  const auto are_names = [&](const auto& names) {
-    return pair.first->name() == names.first && pair.second->name() == names.second;
-  };
-  return std::find_if(std::begin(kUsual), std::end(kUsual), are_names) - std::begin(kUsual);
+  const std::string lon = pair.first->name(), lat = pair.second->name();
+  return std::find(std::begin(kUsual), std::end(kUsual), PairOfNames(lon, lat)) - std::begin(kUsual);
 }
 
 /// The longitudes and latitudes of a file by what its attributes and names say.
@@ -147,14 +144,13 @@ struct Candidates {
                (axis_of(name) == axis || std::any_of(std::begin(kUsual), std::end(kUsual),
                                                      [&](const auto& pair) { return pair.*side == name; }));
       };
-      using Names = std::pair<const char*, const char*>;
       const AngleUnit unit(file.text(v, "units"));
       if (holds != Holds::unknown || unit.degrees || unit.radians) said.push_back(&v);
       if (holds == Holds::rotated)
         rotated.push_back(&v);
-      else if (holds == Holds::longitudes || is_called('o', &Names::first))
+      else if (holds == Holds::longitudes || is_called('o', &PairOfNames::first))
         lons.push_back(&v);
-      else if (holds == Holds::latitudes || is_called('a', &Names::second))
+      else if (holds == Holds::latitudes || is_called('a', &PairOfNames::second))
         lats.push_back(&v);
     }
   }
@@ -181,16 +177,16 @@ Pair lon_lat_of(const File& file, const std::string& value) {
   if (lons.empty() && lats.empty()) {
     if (!rotated.empty())
       file.fail(
-          paths_of(rotated) +
-          ": angles of a rotated pole: `cdo setgridtype,curvilinear` adds longitudes and latitudes to the "
-          "file; if they are longitudes and latitudes, say --columns LON,LAT");
+          "{}: angles of a rotated pole: `cdo setgridtype,curvilinear` adds longitudes and latitudes to the "
+          "file; if they are longitudes and latitudes, say --columns LON,LAT",
+          paths_of(rotated));
     file.fail(
         "no nodes: expected variables xCell, yCell, zCell, or lonCell, latCell, or lon, lat, or others whose "
         "units are degrees_east and degrees_north; or name them by --columns LON,LAT");
   }
   if (lons.empty() || lats.empty())
-    file.fail(fmt::format("there is no variable of {} beside {}: name both by --columns LON,LAT",
-                          lons.empty() ? "longitudes" : "latitudes", paths_of(lons.empty() ? lats : lons)));
+    file.fail("there is no variable of {} beside {}: name both by --columns LON,LAT",
+              lons.empty() ? "longitudes" : "latitudes", paths_of(lons.empty() ? lats : lons));
 
   const Variable* const of_value = value.empty() ? nullptr : file.find(value);
   if (of_value != nullptr)
@@ -209,8 +205,8 @@ Pair lon_lat_of(const File& file, const std::string& value) {
     }
   if (pairs.empty() && lons.size() == 1 && lats.size() == 1) return {lons[0], lats[0]};
   if (pairs.empty() || pairs.begin()->second.size() > 1)
-    file.fail(fmt::format("longitudes {} and latitudes {}: name two of them by --columns LON,LAT",
-                          paths_of(lons), paths_of(lats)));
+    file.fail("longitudes {} and latitudes {}: name two of them by --columns LON,LAT", paths_of(lons),
+              paths_of(lats));
   return pairs.begin()->second[0];
 }
 
@@ -233,19 +229,19 @@ bool in_degrees(const File& file, const Variable& v, const std::vector<double>& 
     if (said != Units::said_or_unmistakable) return said == Units::degrees;
     if (are_beyond_radians(values, are_latitudes)) return true;
   }
-  file.fail(fmt::format("variable {}: units '{}'; expected degrees or radians{}", excerpt(v.path),
-                        excerpt(units), units.empty() ? ": say --units degrees or radians" : ""));
+  file.fail("variable {}: units '{}'; expected degrees or radians{}", excerpt(v.path), excerpt(units),
+            units.empty() ? ": say --units degrees or radians" : "");
 }
 
 /// Reads angles. Radians of type float that mean a multiple of pi/2 become the double that means it.
 std::vector<double> read_angles(const File& file, const Variable& v, bool are_latitudes, bool& are_degrees) {
   std::vector<double> angles = read_of_nodes(file, v);
   if (what_holds(file, v) == (are_latitudes ? Holds::longitudes : Holds::latitudes))
-    file.fail(fmt::format("variable {} holds {}: give the longitudes first, --columns LON,LAT",
-                          excerpt(v.path), are_latitudes ? "longitudes" : "latitudes"));
+    file.fail("variable {} holds {}: give the longitudes first, --columns LON,LAT", excerpt(v.path),
+              are_latitudes ? "longitudes" : "latitudes");
   if (const std::vector<int> dimensions = v.dimensions_of_places(); dimensions.size() > 2)
-    file.fail(fmt::format("variable {}: expected one place per node; take one time out, say by ncks -d {},0",
-                          file.shape(v.path, dimensions), file.dimension_name(dimensions[0])));
+    file.fail("variable {}: expected one place per node; take one time out, say by ncks -d {},0",
+              file.shape(v.path, dimensions), file.dimension_name(dimensions[0]));
   are_degrees = in_degrees(file, v, angles, are_latitudes);
   if (v.type == NC_FLOAT && !are_degrees && !file.is_packed(v))
     for (double& angle : angles) angle = point_sets::radians_of_single(angle);
@@ -269,11 +265,11 @@ void expect_to_fit(const File& file, const Variable& lat, std::size_t rows, std:
   const double bytes = kBytes * static_cast<double>(rows) * static_cast<double>(columns),
                most = static_cast<double>(pstripack::available_memory()), finer = std::sqrt(bytes / most);
   if (finer > 1)
-    file.fail(fmt::format(
+    file.fail(
         "a grid of {} times {} values needs about {:.3g} GB, and {:.3g} GB are free: make it coarser, "
         "say by cdo remapbil,r{:.0f}x{:.0f}",
         rows, columns, bytes / 1e9, most / 1e9, std::floor(static_cast<double>(columns) / finer),
-        std::floor(static_cast<double>(rows) / finer)));
+        std::floor(static_cast<double>(rows) / finer));
 }
 
 /// If one is in degrees and the other in radians, both become degrees.
@@ -288,20 +284,19 @@ Places from_angles(const File& file, const Pair& pair) {
   if (lon_in_degrees != lat_in_degrees)
     for (double& angle : lon_in_degrees ? given.lat : given.lon) angle *= kRadian;
   if (const std::size_t bad = first_beyond_pole(given); bad < given.lat.size())
-    file.fail(fmt::format("variable {}, value {}: {} is beyond the pole{}", excerpt(lat.path), bad + 1,
-                          given.lat[bad],
-                          !lat_in_degrees ? ": is the attribute units wrong, and are these degrees?"
-                          : given.lon.size() == given.lat.size()
-                              ? hint_beyond_pole(given, what_holds(file, lat) == Holds::unknown
-                                                            ? excerpt(lat.path) + "," + excerpt(lon.path)
-                                                            : "")
-                              : ""));
+    file.fail("variable {}, value {}: {} is beyond the pole{}", excerpt(lat.path), bad + 1, given.lat[bad],
+              !lat_in_degrees ? ": is the attribute units wrong, and are these degrees?"
+              : given.lon.size() == given.lat.size()
+                  ? hint_beyond_pole(given, what_holds(file, lat) == Holds::unknown
+                                                ? excerpt(lat.path) + "," + excerpt(lon.path)
+                                                : "")
+                  : "");
   places.variables = {&lon, &lat};
   places.dimensions = dimensions_of_nodes(lon, lat);
   if (lon.dimensions_of_places() != lat.dimensions_of_places()) {
     if (places.dimensions.empty())
-      file.fail(fmt::format("variables {} and {}: expected one shape, or two axes of one dimension each",
-                            excerpt(lon.path), excerpt(lat.path)));
+      file.fail("variables {} and {}: expected one shape, or two axes of one dimension each",
+                excerpt(lon.path), excerpt(lat.path));
     expect_to_fit(file, lat, given.lat.size(), given.lon.size());
     const LonLat axes = angles_of({}, given, true);
     places.grid = {axes.lon, axes.lat};
@@ -316,8 +311,7 @@ Places from_angles(const File& file, const Pair& pair) {
 
 Places from_coordinates(const File& file, const Variable& x, const Variable& y, const Variable& z) {
   if (x.dimensions != y.dimensions || x.dimensions != z.dimensions)
-    file.fail(fmt::format("variables {}, {}, {}: expected one shape", excerpt(x.path), excerpt(y.path),
-                          excerpt(z.path)));
+    file.fail("variables {}, {}, {}: expected one shape", excerpt(x.path), excerpt(y.path), excerpt(z.path));
   const std::vector<double> xs = read_of_nodes(file, x), ys = read_of_nodes(file, y),
                             zs = read_of_nodes(file, z);
   Places places;
@@ -353,7 +347,7 @@ struct Corners {
   std::size_t columns;
 };
 Corners read_corners(const File& file, const Variable& v, bool is_transposed) {
-  if (v.lengths.size() != 2) file.fail("variable " + excerpt(v.path) + ": expected corners of faces");
+  if (v.lengths.size() != 2) file.fail("variable {}: expected corners of faces", excerpt(v.path));
   const std::size_t faces = v.lengths[is_transposed ? 1 : 0], columns = v.lengths[is_transposed ? 0 : 1];
   file.expect_few(v, faces / 2, 1);  // a triangulation has at most twice as many triangles as nodes
   const std::vector<double> values = file.values(v);
@@ -378,11 +372,9 @@ void read_mpas_triangles(const File& file, Nodes& nodes) {
         from_coordinates(file, file.variable("xVertex"), file.variable("yVertex"), file.variable("zVertex"))
             .points;
     if (nodes.vertices.size() != v.lengths[0])
-      file.fail(
-          fmt::format("{} vertices in xVertex, {} in cellsOnVertex", nodes.vertices.size(), v.lengths[0]));
+      file.fail("{} vertices in xVertex, {} in cellsOnVertex", nodes.vertices.size(), v.lengths[0]);
     for (std::size_t i = 0; i < nodes.vertices.size(); ++i)
-      if (!has_direction(nodes.vertices[i]))
-        file.fail(fmt::format("vertex {}: xVertex, yVertex, zVertex are 0", i + 1));
+      if (!has_direction(nodes.vertices[i])) file.fail("vertex {}: xVertex, yVertex, zVertex are 0", i + 1);
   } else {
     std::size_t kept = 0;
     for (std::size_t k = 0; k < corners.size(); k += 3) {
@@ -410,8 +402,7 @@ void read_faces(const File& file, Nodes& nodes, const Variable& mesh) {
     for (std::size_t k = 0; k < corners.columns; ++k)
       if (const long long corner = corners.all[begin + k]; corner != kNoCorner) triangles.push_back(corner);
     const std::size_t count = triangles.size() - before;
-    if (count < 3)
-      file.fail(fmt::format("variable {}, face {}: {} corners", excerpt(v.path), faces + 1, count));
+    if (count < 3) file.fail("variable {}, face {}: {} corners", excerpt(v.path), faces + 1, count);
     if (count > 3) ++nodes.polygons;
     if (count > 3) triangles.resize(before);
   }
@@ -443,7 +434,7 @@ const Variable* ugrid_mesh_of(const File& file, const std::string& value) {
 Places read_ugrid(const File& file, Nodes& nodes, const Variable& mesh) {
   const Names words = words_of(file.text(mesh, "node_coordinates"), ' '),
               vectors = words_of(file.text(mesh, kNodeVectors), ' ');
-  if (words.size() < 2) file.fail("variable " + excerpt(mesh.path) + ": expected node_coordinates 'lon lat'");
+  if (words.size() < 2) file.fail("variable {}: expected node_coordinates 'lon lat'", excerpt(mesh.path));
   Pair angles = Candidates(file).among(file, words, mesh);
   if (angles.first == nullptr) angles = {&file.variable(words[0], &mesh), &file.variable(words[1], &mesh)};
   Places places;
@@ -468,13 +459,12 @@ Places read_chosen(const File& file, Names& names) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     file.variable(names[i]);
     if (std::count(names.begin(), names.end(), names[i]) > 1)
-      file.fail(fmt::format("variable '{}' is chosen twice", excerpt(names[i])));
+      file.fail("variable '{}' is chosen twice", excerpt(names[i]));
   }
   const std::size_t count = file.options().coordinates == Coordinates::xyz ? 3 : 2;
   if (names.size() < count)
-    file.fail(fmt::format("--columns names {} variable{}: expected {}", names.size(),
-                          names.size() == 1 ? "" : "s",
-                          count == 3 ? "those of x, y and z" : "longitude and latitude"));
+    file.fail("--columns names {} variable{}: expected {}", names.size(), names.size() == 1 ? "" : "s",
+              count == 3 ? "those of x, y and z" : "longitude and latitude");
   const Variable &first = file.variable(names[0]), &second = file.variable(names[1]);
   Places places = count == 3 ? from_coordinates(file, first, second, file.variable(names[2]))
                              : from_angles(file, {&first, &second});
@@ -493,11 +483,11 @@ Places read_chosen(const File& file, Names& names) {
   for (const int dimension : nodes) order += (order.empty() ? "" : ",") + file.dimension_name(dimension);
   const bool has_all =
       std::all_of(nodes.begin(), nodes.end(), [&](int n) { return is_among(v.dimensions, n); });
-  file.fail(fmt::format("variable {}: expected {}{}{}", file.shape(v.path, v.dimensions), expected,
-                        file.shape(v.path, nodes),
-                        !has_all       ? ""
-                        : cuts.empty() ? "; exchange the dimensions, by ncpdq -a " + order
-                                       : "; take one layer out, say by ncks" + cuts));
+  file.fail("variable {}: expected {}{}{}", file.shape(v.path, v.dimensions), expected,
+            file.shape(v.path, nodes),
+            !has_all       ? ""
+            : cuts.empty() ? "; exchange the dimensions, by ncpdq -a " + order
+                           : "; take one layer out, say by ncks" + cuts);
 }
 
 /// The values of the variable `name`, or of the only one if `name` is empty.
@@ -509,14 +499,13 @@ Column read_value(const File& file, const std::string& name, const Places& place
       if (!is_among(places.variables, &v) && v.has_numbers() && v.is_of(places.dimensions))
         others.push_back(&v);
     if (!name.empty() || others.size() != 1)
-      file.fail(fmt::format("{}say --variable NAME; variables with one value per node: {}",
-                            name.empty() ? "" : "there is no variable " + excerpt(name) + "; ",
-                            paths_of(others)));
+      file.fail("{}say --variable NAME; variables with one value per node: {}",
+                name.empty() ? "" : "there is no variable " + excerpt(name) + "; ", paths_of(others));
     found = others[0];
   }
   const Variable& v = *found;
   if (!v.is_of(places.dimensions)) fail_of_shape(file, v, "", places.dimensions);
-  if (!v.has_numbers()) file.fail(fmt::format("variable {}: expected numbers", excerpt(v.path)));
+  if (!v.has_numbers()) file.fail("variable {}: expected numbers", excerpt(v.path));
   Column column = read_column(file, v);
   if (column.is_text()) column = {column.name, column.long_name, column.units, file.values(v)};
   return column;

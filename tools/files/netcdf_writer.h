@@ -30,8 +30,7 @@ class NetcdfWriter {
  public:
   using Dimensions = std::vector<int>;
 
-  explicit NetcdfWriter(const OutputFile& file, int kind = NC_NETCDF4 | NC_CLASSIC_MODEL)
-      : name_(file.name()) {
+  explicit NetcdfWriter(OutputFile& file, int kind = NC_NETCDF4 | NC_CLASSIC_MODEL) : name_(file.name()) {
     std::size_t buffer = std::size_t{1} << 20;  // of classic files; NetCDF's own of some kB takes longer
     check(nc__create(file.path().c_str(), NC_CLOBBER | kind, 0, &buffer, &id_));
     check(nc_set_fill(id_, NC_NOFILL, nullptr));
@@ -55,7 +54,6 @@ class NetcdfWriter {
     int variable = 0;
     check(nc_def_var(id_, name.c_str(), type, static_cast<int>(dimensions.size()), dimensions.data(),
                      &variable));
-    dimensions_[variable] = dimensions;
     names_.insert(name);
     for (const auto& [attribute_name, text] : attributes) attribute(variable, attribute_name.c_str(), text);
     return variable;
@@ -120,7 +118,7 @@ class NetcdfWriter {
     const int id = define(name, type_of<Value>(), dimensions, attributes);
     const std::size_t width = width_of(dimensions),
                       count = dimensions.empty() ? 1 : lengths_.at(dimensions[0]);
-    writing_.emplace_back([this, id, count, width, row] { put_rows<Value>(id, count, width, row); });
+    writing_.emplace_back([=] { put_rows<Value>(id, dimensions, count, width, row); });
     return id;
   }
 
@@ -160,21 +158,6 @@ class NetcdfWriter {
   static constexpr nc_type type_of() {
     return std::is_same_v<Value, double> ? NC_DOUBLE : std::is_same_v<Value, char> ? NC_CHAR : NC_INT;
   }
-  /// Writes `rows` rows of the variable from `first` on.
-  template <class Value>
-  void put(int variable, const Value* values, std::size_t first, std::size_t rows) const {
-    std::vector<std::size_t> start, count;
-    for (const int dimension : dimensions_.at(variable)) {
-      start.push_back(count.empty() ? first : 0);
-      count.push_back(count.empty() ? rows : lengths_.at(dimension));
-    }
-    if constexpr (std::is_same_v<Value, double>)
-      check(nc_put_vara_double(id_, variable, start.data(), count.data(), values));
-    else if constexpr (std::is_same_v<Value, char>)
-      check(nc_put_vara_text(id_, variable, start.data(), count.data(), values));
-    else
-      check(nc_put_vara_int(id_, variable, start.data(), count.data(), values));
-  }
   /// Defines a variable: value(k) is its k-th value.
   template <class Value, class ValueAt>
   int elements(const std::string& name, const Dimensions& dimensions, const Notes& attributes,
@@ -190,18 +173,21 @@ class NetcdfWriter {
   }
   /// Some rows at a time.
   template <class Value, class Row>
-  void put_rows(int variable, std::size_t rows, std::size_t width, const Row& row) const {
+  void put_rows(int variable, const Dimensions& dimensions, std::size_t rows, std::size_t width,
+                const Row& row) const {
     if (rows == 0) return;  // of no faces, whose width may be 0
     const std::size_t most = std::min(rows, std::max<std::size_t>((std::size_t{1} << 20) / width, 1));
     std::vector<Value> values(most * width);
+    std::vector<std::size_t> start(dimensions.size()), count{0, width};
     for (std::size_t first = 0; first < rows; first += most) {
-      const std::size_t count = std::min(most, rows - first);
-      pstripack::parallel_for(count, 10 * count, [&](std::size_t i) {
+      count[0] = std::min(most, rows - first);
+      pstripack::parallel_for(count[0], 10 * count[0], [&](std::size_t i) {
         Value* const to = values.data() + i * width;
         std::fill(to, to + width, Value{});
         row(first + i, to);
       });
-      put(variable, values.data(), first, count);
+      if (!start.empty()) start[0] = first;
+      check(nc_put_vara(id_, variable, start.data(), count.data(), values.data()));
     }
   }
   /// NetCDF gives all texts of a column the length of the longest.
@@ -234,7 +220,6 @@ class NetcdfWriter {
   std::string name_;
   int id_ = -1;
   std::map<int, std::size_t> lengths_;          ///< of each dimension
-  std::map<int, Dimensions> dimensions_;        ///< of each variable
   std::set<std::string> names_;                 ///< of dimensions and variables
   std::vector<std::function<void()>> writing_;  ///< the values
 };

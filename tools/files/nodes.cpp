@@ -40,12 +40,6 @@ bool is_binary(std::string_view bytes) {
   });
 }
 
-std::string_view first_word(std::string_view text) {
-  const std::size_t begin = std::min(text.size(), text.find_first_not_of(" \t\r\n"));
-  text.remove_prefix(begin);
-  return text.substr(0, text.find_first_of(" \t\r\n"));
-}
-
 /// Sets the nodes from given angles. Angles too large for radians are degrees. `to_exchange`: value of
 /// --columns for the hint that longitudes and latitudes may be exchanged.
 void set_angles(Nodes& nodes, LonLat given, Units units, const std::string& to_exchange) {
@@ -53,24 +47,21 @@ void set_angles(Nodes& nodes, LonLat given, Units units, const std::string& to_e
   if (units == Units::said_or_unmistakable) {
     const double lon = largest_of(given.lon), lat = largest_of(given.lat);
     if (lon <= 4 * kRightAngle * kSlack && lat <= kRightAngle * kSlack)
-      throw std::runtime_error(fmt::format(
-          "{}: the angles may be degrees or radians: say --units degrees or --units radians (longitudes "
-          "reach {:.4g}, "
-          "latitudes {:.4g}{})",
-          nodes.file, lon, lat, lon > kRightAngle && lat > 0.8 * kRightAngle ? ", as radians do" : ""));
+      fail(nodes.file,
+           "the angles may be degrees or radians: say --units degrees or --units radians (longitudes "
+           "reach {:.4g}, latitudes {:.4g}{})",
+           lon, lat, lon > kRightAngle && lat > 0.8 * kRightAngle ? ", as radians do" : "");
     units = Units::degrees;
   }
   given.degrees = units == Units::degrees;
   if (const std::size_t bad = first_beyond_pole(given); bad < n)
-    throw std::runtime_error(
-        fmt::format("{}: {}: latitude {} is beyond the pole: the columns are 'lon lat', in {}{}", nodes.file,
-                    nodes.place(bad), given.lat[bad], given.degrees ? "degrees" : "radians",
-                    hint_beyond_pole(given, to_exchange)));
+    fail(nodes.file, "{}: latitude {} is beyond the pole: the columns are 'lon lat', in {}{}",
+         nodes.place(bad), given.lat[bad], given.degrees ? "degrees" : "radians",
+         hint_beyond_pole(given, to_exchange));
   for (std::size_t i = 0; !given.degrees && i < n; ++i)
     if (std::fabs(given.lon[i]) > 8 * kRightAngle)
-      throw std::runtime_error(
-          fmt::format("{}: {}: longitude {} is more than two turns in radians; --units degrees?", nodes.file,
-                      nodes.place(i), given.lon[i]));
+      fail(nodes.file, "{}: longitude {} is more than two turns in radians; --units degrees?", nodes.place(i),
+           given.lon[i]);
   nodes.points = points_of(given);
   nodes.kind += given.degrees ? ", lon lat in degrees" : ", lon lat in radians";
   nodes.given = std::move(given);
@@ -102,17 +93,16 @@ struct Choice {
 /// The columns of the coordinates by name; empty if no names fit. If two name one axis, the first of those
 /// that the caller has chosen; else throws.
 std::vector<std::size_t> place_by_names(const std::vector<std::size_t>& candidates, const TextLayout& layout,
-                                        Coordinates coordinates, bool chosen, const std::string& where) {
+                                        Coordinates coordinates, bool chosen) {
   const auto axes = [&](std::string_view names) {
     std::vector<std::size_t> found;
     for (const char axis : names) {
-      std::vector<std::size_t> all = candidates;
-      const auto is_other = [&](std::size_t c) { return axis_of(layout.name(c)) != axis; };
-      all.erase(std::remove_if(all.begin(), all.end(), is_other), all.end());
+      std::vector<std::size_t> all;
+      for (const std::size_t c : candidates)
+        if (axis_of(layout.name(c)) == axis) all.push_back(c);
       if (all.size() > 1 && !chosen)
-        throw std::runtime_error(
-            fmt::format("{}: the header names column '{}' twice, {} and {}: choose columns by number", where,
-                        excerpt(layout.name(all[0])), all[0] + 1, all[1] + 1));
+        fail(layout.where, "the header names column '{}' twice, {} and {}: choose columns by number",
+             excerpt(layout.name(all[0])), all[0] + 1, all[1] + 1);
       if (!all.empty()) found.push_back(all[0]);
     }
     return found;
@@ -122,9 +112,8 @@ std::vector<std::size_t> place_by_names(const std::vector<std::size_t>& candidat
     if (found.size() == 2) return found;
     if (found.size() == 1) {
       const bool has_lon = axis_of(layout.name(found[0])) == 'o';
-      throw std::runtime_error(fmt::format(
-          "{}: a column '{}' without a {}: name both by --columns LON,LAT; the header has {}", where,
-          excerpt(layout.name(found[0])), has_lon ? "latitude" : "longitude", listed(layout.names)));
+      fail(layout.where, "a column '{}' without a {}: name both by --columns LON,LAT; the header has {}",
+           excerpt(layout.name(found[0])), has_lon ? "latitude" : "longitude", listed(layout.names));
     }
   }
   if (coordinates == Coordinates::lonlat) return {};
@@ -132,40 +121,35 @@ std::vector<std::size_t> place_by_names(const std::vector<std::size_t>& candidat
   return found.size() == 3 ? found : std::vector<std::size_t>{};
 }
 
-Choice choose(const TextLayout& layout, const ReadOptions& options, const std::string& file) {
-  const std::string where = layout.header_line > 0 ? fmt::format("{}:{}", file, layout.header_line) : file;
-  const auto fail = [&](const std::string& what) {
-    throw std::runtime_error(fmt::format("{}: {}", where, what));
-  };
+Choice choose(const TextLayout& layout, const ReadOptions& options) {
+  const std::string& where = layout.where;
   const bool chosen = !options.columns.empty(), detected = options.coordinates == Coordinates::detected;
   std::vector<std::size_t> candidates(layout.columns);
   std::iota(candidates.begin(), candidates.end(), std::size_t{0});
-  if (chosen) candidates = columns_named(options.columns, layout, file);
+  if (chosen) candidates = columns_named(options.columns, layout);
   Choice choice;
-  if (!layout.names.empty())
-    choice.place = place_by_names(candidates, layout, options.coordinates, chosen, where);
+  if (!layout.names.empty()) choice.place = place_by_names(candidates, layout, options.coordinates, chosen);
   if (choice.place.empty()) {
     std::size_t columns = options.coordinates == Coordinates::xyz ? 3 : 2;
     if (!chosen && detected) {
       if (!layout.names.empty())
-        fail(fmt::format(
-            "no columns named lon and lat, or x, y and z: name them by --columns; the header has {}",
-            listed(layout.names)));
+        fail(where, "no columns named lon and lat, or x, y and z: name them by --columns; the header has {}",
+             listed(layout.names));
       const bool is_third = options.variable == "3";  // so the first two are lon lat
       const bool has_value = options.with_values || (options.may_have_value && layout.columns > 2);
       columns = is_third ? 2 : layout.columns - (has_value ? 1 : 0);
       const bool may_be_either = has_value && !options.with_values && layout.columns == 3;
       if ((columns != 2 && columns != 3) || may_be_either)
-        fail(fmt::format(
-            "has {} column{}: say --coordinates lonlat or xyz, or choose --columns 1,2, or of fixed "
-            "widths 22-30,13-20; expected 'lon lat{}' or 'x y z{}'",
-            layout.columns, layout.columns == 1 ? "" : "s", has_value ? " value" : "",
-            has_value ? " value" : ""));
+        fail(where,
+             "has {} column{}: say --coordinates lonlat or xyz, or choose --columns 1,2, or of fixed "
+             "widths 22-30,13-20; expected 'lon lat{}' or 'x y z{}'",
+             layout.columns, layout.columns == 1 ? "" : "s", has_value ? " value" : "",
+             has_value ? " value" : "");
       choice.is_guess = options.lengths_decide && !has_value && columns == 3;
     }
     if (candidates.size() < columns)
-      fail(fmt::format("has {} columns; --coordinates {} needs {}{}", candidates.size(),
-                       columns == 3 ? "xyz" : "lonlat", columns, options.with_values ? " and a value" : ""));
+      fail(where, "has {} columns; --coordinates {} needs {}{}", candidates.size(),
+           columns == 3 ? "xyz" : "lonlat", columns, options.with_values ? " and a value" : "");
     choice.place.assign(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(columns));
   }
   const auto is_place = [&](std::size_t c) {
@@ -176,18 +160,17 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
   if (!options.with_values) return choice;
 
   if (!options.variable.empty()) {
-    const std::vector<std::size_t> named = columns_named(options.variable, layout, file);
-    if (named.size() != 1) fail(fmt::format("--variable names one column, not '{}'", options.variable));
+    const std::vector<std::size_t> named = columns_named(options.variable, layout);
+    if (named.size() != 1) fail(where, "--variable names one column, not '{}'", options.variable);
     if (is_place(named[0]))
-      fail(
-          fmt::format("column {} is a coordinate, not a value: choose another --variable", options.variable));
+      fail(where, "column {} is a coordinate, not a value: choose another --variable", options.variable);
     choice.value = named[0];
   } else if (choice.columns.size() == 1 || (!choice.columns.empty() && (chosen || layout.names.empty()))) {
     choice.value = choice.columns[0];
   } else if (choice.columns.empty()) {
-    fail(fmt::format("has {} columns; expected 'lon lat value' or 'x y z value'", layout.columns));
+    fail(where, "has {} columns; expected 'lon lat value' or 'x y z value'", layout.columns);
   } else {
-    fail(fmt::format("which column is the value? Say --variable; the header has {}", listed(layout.names)));
+    fail(where, "which column is the value? Say --variable; the header has {}", listed(layout.names));
   }
   return choice;
 }
@@ -205,9 +188,8 @@ Units units_of(const TextLayout& layout, const Choice& choice, Units otherwise, 
   const Units lon = of_column(choice.place[0]), lat = of_column(choice.place[1]);
   if (lon == Units::said_or_unmistakable) return lat == Units::said_or_unmistakable ? otherwise : lat;
   if (lat != Units::said_or_unmistakable && lat != lon)
-    throw std::runtime_error(fmt::format(
-        "{}:{}: one of longitude and latitude is in degrees, the other in radians: convert one of them", file,
-        std::max<std::size_t>(1, layout.header_line)));
+    fail(line_of(file, std::max<std::size_t>(1, layout.header_line)),
+         "one of longitude and latitude is in degrees, the other in radians: convert one of them");
   return lon;
 }
 
@@ -226,11 +208,10 @@ bool is_lonlat_value(const Nodes& nodes, const TextRows& rows, Units units) {
   if (longest <= (1 + kSameLength) * shortest || most_lon > 360 || most_lat > 90) return false;
   const bool may_be_radians = most_lon <= 4 * kRightAngle && most_lat <= kRightAngle;
   if (units == Units::said_or_unmistakable && (may_be_radians || longest <= 1.001 * shortest))
-    throw std::runtime_error(
-        fmt::format("{}: three columns without names may be x y z, of lengths {:.7g} to {:.7g}, or lon lat "
-                    "and a value: say "
-                    "--coordinates xyz, or --columns 1,2,3",
-                    nodes.file, shortest, longest));
+    fail(nodes.file,
+         "three columns without names may be x y z, of lengths {:.7g} to {:.7g}, or lon lat "
+         "and a value: say --coordinates xyz, or --columns 1,2,3",
+         shortest, longest);
   return true;
 }
 
@@ -252,7 +233,7 @@ void read_text(Nodes& nodes, std::string_view text, const ReadOptions& options) 
     return read_text(nodes, text, of_table);
   }
   const TextLayout layout = layout_of(text, nodes.file, options.text);
-  Choice choice = choose(layout, options, nodes.file);
+  Choice choice = choose(layout, options);
   std::vector<Role> roles(layout.columns, Role::skipped);
   if (options.with_columns)
     for (const std::size_t c : choice.columns) roles[c] = Role::carried;
@@ -285,19 +266,17 @@ void read_text(Nodes& nodes, std::string_view text, const ReadOptions& options) 
 void read_raw(Nodes& nodes, std::string_view bytes, const ReadOptions& options) {
   nodes.kind = "raw doubles";
   if (options.coordinates == Coordinates::detected)
-    throw std::runtime_error(nodes.file +
-                             ": raw doubles have no format information: give --coordinates xyz or lonlat");
+    fail(nodes.file, "raw doubles have no format information: give --coordinates xyz or lonlat");
   const std::size_t columns = options.coordinates == Coordinates::xyz ? 3 : 2;
   if (bytes.empty() || bytes.size() % (columns * sizeof(double)) != 0)
-    throw std::runtime_error(
-        fmt::format("{}: {} bytes are not rows of {} doubles of 8 bytes", nodes.file, bytes.size(), columns));
+    fail(nodes.file, "{} bytes are not rows of {} doubles of 8 bytes", bytes.size(), columns);
   std::vector<double> values(bytes.size() / sizeof(double));
   std::memcpy(values.data(), bytes.data(), bytes.size());
   std::vector<std::vector<double>> axes(columns);
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!std::isfinite(values[i]) && !(options.keep_missing && std::isnan(values[i])))
-      throw std::runtime_error(fmt::format("{}: {}: column {} is not finite: remove the row", nodes.file,
-                                           nodes.place(i / columns), i % columns + 1));
+      fail(nodes.file, "{}: column {} is not finite: remove the row", nodes.place(i / columns),
+           i % columns + 1);
     axes[i % columns].push_back(values[i]);
   }
   set_places(nodes, std::move(axes), options.units, "");
@@ -310,22 +289,22 @@ void read_off(Nodes& nodes, std::string text, const ReadOptions& options) {
   for (std::size_t begin = text.find('#'); begin != text.npos; begin = text.find('#', begin))
     text.erase(begin, std::min(text.size(), text.find('\n', begin)) - begin);
   std::istringstream in(text);
-  const auto fail = [&](const std::string& what) { throw std::runtime_error(nodes.file + ": " + what); };
   std::string word;
   std::size_t vertices = 0, faces = 0, edges = 0;
   if (!(in >> word >> vertices >> faces >> edges))
-    fail("expected OFF and the counts of vertices, faces, edges");
-  if (vertices > text.size() || faces > text.size()) fail("counts larger than the file");
+    fail(nodes.file, "expected OFF and the counts of vertices, faces, edges");
+  if (vertices > text.size() || faces > text.size()) fail(nodes.file, "counts larger than the file");
   nodes.points.resize(vertices);
   for (std::size_t i = 0; i < vertices; ++i)
-    if (Point& p = nodes.points[i]; !(in >> p.x >> p.y >> p.z)) fail(nodes.place(i) + ": expected x y z");
+    if (Point& p = nodes.points[i]; !(in >> p.x >> p.y >> p.z))
+      fail(nodes.file, "{}: expected x y z", nodes.place(i));
   if (!options.with_triangles) return;
   std::vector<long long> corners(3 * faces);
   for (std::size_t f = 0; f < faces; ++f) {
     std::size_t count = 0;
     in >> count;
     for (std::size_t k = 0; k < 3; ++k) in >> corners[3 * f + k];
-    if (!in || count != 3) fail(fmt::format("face {}: expected 3 and three corners", f + 1));
+    if (!in || count != 3) fail(nodes.file, "face {}: expected 3 and three corners", f + 1);
   }
   set_triangles(nodes, corners, 0);
 }
@@ -360,7 +339,7 @@ void refuse_foreign(const std::string& file, const std::string& contents) {
   const std::string_view whole(contents), head = whole.substr(0, 4096);
   const auto refuse = [&](const char* name, std::string by) {
     by.replace(by.find('%'), 1, file);
-    throw std::runtime_error(fmt::format("{}: {}: convert it first, by `{}`", file, name, by));
+    fail(file, "{}: convert it first, by `{}`", name, by);
   };
   for (const Foreign& f : kForeign)
     if (whole.substr(0, f.begin.size()) == f.begin &&
@@ -386,17 +365,25 @@ std::string Nodes::place(std::size_t i) const {
          (i < lines.size() ? fmt::format(" ({} {})", lines_are, lines[i]) : "");
 }
 
+NodeValues at_nodes(const NodeValues& values, const std::vector<std::size_t>& nodes) {
+  return {at_nodes(values.given, nodes),
+          values_at(values.density, nodes),
+          at_nodes(values.columns, nodes),
+          values.notes,
+          values_at(values.layers, nodes),
+          values.radius,
+          values.nominal};
+}
+
 void Nodes::keep(const std::vector<std::size_t>& indices) {
   if (shape.empty()) shape.push_back(points.size());
   if (numbers.empty())
     for (std::size_t i = 0; i < points.size(); ++i) numbers.push_back(i + 1);
   numbers = values_at(numbers, indices);
   points = values_at(points, indices);
-  given = at_nodes(given, indices);
   lines = values_at(lines, indices);
-  density = values_at(density, indices);
   value = at_nodes(Columns{value}, indices)[0];
-  columns = at_nodes(columns, indices);
+  static_cast<NodeValues&>(*this) = at_nodes(*this, indices);
   grid = {};
   triangles.clear();
   vertices.clear();
@@ -444,16 +431,13 @@ void set_triangles(Nodes& nodes, const std::vector<long long>& corners, long lon
       const long long node = corners[3 * t + k] - first;
       const bool is_missing = node == -1 && !nodes.vertices.empty();
       if ((node < 0 && !is_missing) || node >= static_cast<long long>(nodes.points.size()))
-        throw std::runtime_error(
-            fmt::format("{}: triangle {}: there is no node {}", nodes.file, t + 1, corners[3 * t + k]));
+        fail(nodes.file, "triangle {}: there is no node {}", t + 1, corners[3 * t + k]);
       triangle[k] = static_cast<pstripack::index_t>(node);
     }
     if (triangle[0] < 0 || triangle[1] < 0 || triangle[2] < 0) continue;
     const auto at = [&](std::size_t k) { return nodes.points[static_cast<std::size_t>(triangle[k])]; };
     const int sign = pstripack::left(at(0), at(1), at(2));
-    if (sign == 0)
-      throw std::runtime_error(
-          fmt::format("{}: triangle {}: its corners lie on one great circle", nodes.file, t + 1));
+    if (sign == 0) fail(nodes.file, "triangle {}: its corners lie on one great circle", t + 1);
     if (sign < 0) std::swap(triangle[1], triangle[2]);
   }
 }
@@ -480,25 +464,24 @@ Nodes read(const std::string& file, const ReadOptions& options) {
 
   const std::string contents = contents_of(file);
   if (may_be_netcdf && has_magic_of_netcdf(contents)) return read_netcdf(nodes.file, options, contents);
-  if (options.container == Container::netcdf) throw std::runtime_error(nodes.file + ": not a NetCDF file");
+  if (options.container == Container::netcdf) fail(nodes.file, "not a NetCDF file");
   if (options.container == Container::raw) {
-    if (options.with_values)
-      throw std::runtime_error(nodes.file + ": values are read from text, NetCDF and GeoJSON only");
+    if (options.with_values) fail(nodes.file, "values are read from text, NetCDF and GeoJSON only");
     read_raw(nodes, contents, options);
     return nodes;
   }
   if (contents.compare(0, 2, "\xFF\xFE") == 0 || contents.compare(0, 2, "\xFE\xFF") == 0)
-    throw std::runtime_error(nodes.file + ":1: UTF-16: save the file as UTF-8");
-  if (contents.compare(0, 2, "\x1F\x8B") == 0)
-    throw std::runtime_error(nodes.file + ": compressed by gzip: use `gunzip` first");
+    fail(nodes.file + ":1", "UTF-16: save the file as UTF-8");
+  if (contents.compare(0, 2, "\x1F\x8B") == 0) fail(nodes.file, "compressed by gzip: use `gunzip` first");
   refuse_foreign(nodes.file, contents);
   if (is_binary(contents))
-    throw std::runtime_error(nodes.file +
-                             ": binary, but not NetCDF; raw doubles need --from raw and --coordinates");
+    fail(nodes.file, "binary, but not NetCDF; raw doubles need --from raw and --coordinates");
   if (options.container == Container::geojson ||
       (options.container == Container::detected && is_geojson(contents)))
     return read_geojson(nodes.file, options, contents);
-  if (first_word(contents) == "OFF" && !options.with_values)
+  std::string first_word;
+  std::istringstream(contents.substr(0, 4096)) >> first_word;
+  if (first_word == "OFF" && !options.with_values)
     read_off(nodes, contents, options);
   else
     read_text(nodes, contents, options);
@@ -508,7 +491,7 @@ Nodes read(const std::string& file, const ReadOptions& options) {
 #ifndef HAVE_NETCDF
 std::vector<std::string> netcdf_variables(const std::string&) { return {}; }
 Nodes read_netcdf(const std::string& file, const ReadOptions&, const std::string&) {
-  throw std::runtime_error(file + ": a NetCDF file, which this build cannot read: build with libnetcdf-dev");
+  fail(file, "a NetCDF file, which this build cannot read: build with libnetcdf-dev");
 }
 #endif
 

@@ -2,6 +2,7 @@
 // Nodes and meshes read from files.
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -57,29 +58,35 @@ struct Grid {
   LonLat places() const;  ///< of all its points, row after row of latitude
 };
 
-struct Nodes {
+/// What may be known about nodes beside their places.
+struct NodeValues {
+  LonLat given = {};                 ///< longitudes and latitudes as in the file; empty: the file has none
+  std::vector<double> density = {};  ///< meshDensity of MPAS; empty: unknown
+  Columns columns = {};
+  Notes notes = {};
+  std::vector<std::int32_t> layers = {};  ///< in a limited area (limited_area.h); empty: in none
+  double radius = 1;                      ///< of the sphere in MPAS files
+  double nominal = 0;                     ///< width of cells of density 1, radians; 0: unknown
+};
+NodeValues at_nodes(const NodeValues& values, const std::vector<std::size_t>& nodes);
+
+struct Nodes : NodeValues {
   std::string file;  ///< name in messages
   std::string kind;  ///< "text, lon lat in degrees"
   std::vector<Point> points;
-  LonLat given;  ///< longitudes and latitudes as in the file; empty: the file has none
-  Grid grid;     ///< the grid, if the nodes are one; else empty
+  Grid grid;  ///< the grid, if the nodes are one; else empty
   /// The shape of all nodes in the file, also of those left out later; empty: a list of these nodes.
   std::vector<std::size_t> shape;
   std::vector<std::size_t> numbers;  ///< of each node in the file, if some were left out; else empty
   std::vector<std::size_t> lines;    ///< line or feature of each node in text or GeoJSON, from 1
   const char* lines_are = "line";    ///< "line" or "feature"
-  std::vector<double> density;       ///< meshDensity of MPAS, if the file has it
   Column value;                      ///< if requested; its name is empty if the file has none
-  Columns columns;                   ///< if requested: the other columns of the file
-  Notes notes;
-  pstripack::Triangles triangles;  ///< counterclockwise; empty unless requested and present
+  pstripack::Triangles triangles;    ///< counterclockwise; empty unless requested and present
   /// Of an MPAS mesh with a boundary, if requested: the vertices of all triangles, of which some lack
   /// corners: -1 stands for them.
   std::vector<Point> vertices;
   std::vector<std::string> variables;  ///< all of a NetCDF file
   std::size_t polygons = 0;  ///< faces of more than three corners, which are not read; nor are the triangles
-  double radius = 1;         ///< of the sphere, if the file says it
-  double nominal = 0;        ///< width of cells of density 1, radians, if the file says it
 
   /// The number of the node in the file, from 1.
   std::size_t number(std::size_t i) const { return numbers.empty() ? i + 1 : numbers[i]; }

@@ -74,34 +74,35 @@ void remove_unfinished_output() {
     if (name[0] != '\0') unlink(name);
 }
 
-void fail_to_write(const std::string& name, int error) {
-  throw std::runtime_error(name + ": cannot be written: " + std::strerror(error));
+void OutputFile::fail(int error) const {
+  throw std::runtime_error(name_ + ": cannot be written: " + std::strerror(error));
 }
 
 OutputFile::OutputFile(const std::string& name)
-    : name_(name == "-" ? "stdout" : name), target_(is_stdout(name) ? "-" : name) {
+    : name_(name == "-" ? "stdout" : name),
+      target_(is_stdout(name) ? "-" : name),
+      out_(nullptr, std::fclose) {
   std::error_code error;
   const fs::file_status status = fs::status(name, error);
-  if (fs::is_directory(status)) fail_to_write(name_, EISDIR);
+  if (fs::is_directory(status)) fail(EISDIR);
   copies_ = target_ == "-" || (fs::exists(status) && !fs::is_regular_file(status));
   if (!copies_) {
     const fs::path real = fs::weakly_canonical(name, error);  // symlinks
     // An open file without a name, as /dev/fd/5 may be: the link must not be renamed over.
     copies_ = fs::exists(status) && (error || !fs::equivalent(name, real, error));
     if (!copies_ && !error) target_ = real.string();
-    if (fs::exists(status) && access(target_.c_str(), W_OK) != 0) fail_to_write(name_, errno);
+    if (fs::exists(status) && access(target_.c_str(), W_OK) != 0) fail(errno);
     // access() allows root everything.
     constexpr auto kWriting = fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write;
-    if (!copies_ && fs::exists(status) && (status.permissions() & kWriting) == fs::perms::none)
-      fail_to_write(name_, EACCES);
+    if (!copies_ && fs::exists(status) && (status.permissions() & kWriting) == fs::perms::none) fail(EACCES);
   }
   const fs::path folder = copies_ ? fs::temp_directory_path() : fs::path(target_).parent_path();
   const std::string beginning = beginning_of_temporary(target_);
   report_leftovers(folder, beginning);
   temporary_ = (folder / fmt::format("{}{}.XXXXXX", beginning, getpid())).string();
   const int descriptor = mkstemp(temporary_.data());
-  if (descriptor < 0) fail_to_write(name_, errno);
-  close(descriptor);
+  if (descriptor < 0) fail(errno);
+  out_.reset(fdopen(descriptor, "wb"));
   for (char(&name)[4096] : names_to_remove)
     if (to_remove_ == nullptr && name[0] == '\0' && temporary_.size() < sizeof name)
       to_remove_ = std::strcpy(name, temporary_.c_str());
@@ -115,13 +116,24 @@ OutputFile::~OutputFile() {
   if (to_remove_ != nullptr) to_remove_[0] = '\0';
 }
 
+void OutputFile::write(const void* bytes, std::size_t size) {
+  if (std::fwrite(bytes, 1, size, out_.get()) != size) fail(errno);
+}
+
+void OutputFile::flush() {
+  write(text_.data(), text_.size());
+  text_.clear();
+}
+
 void OutputFile::commit() {
+  flush();
+  if (std::fclose(out_.release()) != 0) fail(errno);
   if (copies_) {
     copy_to_target();
     return;
   }
   set_permissions();
-  if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail_to_write(name_, errno);
+  if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
   temporary_.clear();
 }
 
@@ -148,32 +160,11 @@ void OutputFile::copy_to_target() const {
   const Stream in(std::fopen(temporary_.c_str(), "rb"), std::fclose);
   Stream opened(target_ == "-" ? nullptr : std::fopen(target_.c_str(), "wb"), std::fclose);
   std::FILE* const out = target_ == "-" ? stdout : opened.get();
-  if (in == nullptr || out == nullptr) fail_to_write(name_, errno);
+  if (in == nullptr || out == nullptr) fail(errno);
   std::vector<char> bytes(std::size_t{1} << 20);
   for (std::size_t got; (got = std::fread(bytes.data(), 1, bytes.size(), in.get())) > 0;)
-    if (std::fwrite(bytes.data(), 1, got, out) != got) fail_to_write(name_, errno);
-  if (std::fflush(out) != 0) fail_to_write(name_, errno);
-}
-
-TextWriter::TextWriter(const OutputFile& file)
-    : name_(file.name()), out_(std::fopen(file.path().c_str(), "wb"), std::fclose) {
-  if (out_ == nullptr) fail_to_write(name_, errno);
-}
-
-void TextWriter::write(const void* bytes, std::size_t size) {
-  flush();
-  if (std::fwrite(bytes, 1, size, out_.get()) != size) fail_to_write(name_, errno);
-}
-
-void TextWriter::flush() {
-  if (std::fwrite(buffer_.data(), 1, buffer_.size(), out_.get()) != buffer_.size())
-    fail_to_write(name_, errno);
-  buffer_.clear();
-}
-
-void TextWriter::close() {
-  flush();
-  if (std::fclose(out_.release()) != 0) fail_to_write(name_, errno);
+    if (std::fwrite(bytes.data(), 1, got, out) != got) fail(errno);
+  if (std::fflush(out) != 0) fail(errno);
 }
 
 }  // namespace files

@@ -28,12 +28,23 @@ class OutputFile {
   const std::string& path() const { return temporary_; }  ///< where to write before commit()
   const std::string& name() const { return name_; }       ///< for messages
   bool has_a_name() const { return !copies_; }  ///< not stdout, a device or a pipe: others can lie beside it
+  /// Buffered text output, for those who do not write to path().
+  template <class... Values>
+  void print(fmt::format_string<Values...> format, Values&&... values) {
+    fmt::format_to(fmt::appender(text_), format, std::forward<Values>(values)...);
+    if (text_.size() > std::size_t{1} << 20) flush();
+  }
+  void write(const void* bytes, std::size_t size);  ///< before all text
   void commit();
 
  private:
+  void flush();
   void copy_to_target() const;
   void set_permissions() const;
+  [[noreturn]] void fail(int error) const;
   std::string name_, target_, temporary_;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> out_;  ///< the temporary file
+  fmt::memory_buffer text_;                              ///< not yet written to it
   bool copies_;                ///< the target is a device, pipe or stdout: commit() copies
   char* to_remove_ = nullptr;  ///< the signal handlers' copy of temporary_
 };
@@ -43,29 +54,5 @@ std::function<void(const std::string&)>& on_leftover();
 
 /// Removes the temporary files that OutputFiles of this process have. Signal handlers may call it.
 void remove_unfinished_output();
-
-[[noreturn]] void fail_to_write(const std::string& name, int error);
-
-/// Buffered text output to an OutputFile.
-class TextWriter {
- public:
-  explicit TextWriter(const OutputFile& file);
-
-  template <class... Values>
-  void print(fmt::format_string<Values...> format, Values&&... values) {
-    fmt::format_to(fmt::appender(buffer_), format, std::forward<Values>(values)...);
-    if (buffer_.size() > kFull) flush();
-  }
-  void write(const void* bytes, std::size_t size);
-  /// Writes the buffer. Must be the last call.
-  void close();
-
- private:
-  static constexpr std::size_t kFull = std::size_t{1} << 20;
-  void flush();
-  std::string name_;
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> out_;
-  fmt::memory_buffer buffer_;
-};
 
 }  // namespace files

@@ -14,10 +14,6 @@
 
 namespace files {
 
-/// Key: x, y, z.
-using NumberOfPoint =
-    std::unordered_map<std::array<double, 3>, std::int32_t, boost::hash<std::array<double, 3>>>;
-
 /// Collects rings as faces. Corners with the same coordinates are stored once.
 class Pieces {
  public:
@@ -61,7 +57,8 @@ class Pieces {
 
   const Faces& cells_;
   Faces faces_;
-  NumberOfPoint number_;
+  using Coordinates = std::array<double, 3>;
+  std::unordered_map<Coordinates, std::int32_t, boost::hash<Coordinates>> number_;  ///< of each point
 };
 
 }  // namespace files

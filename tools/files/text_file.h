@@ -1,9 +1,23 @@
 #pragma once
 
+#include <fmt/format.h>
+
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace files {
+
+/// Throws the error "WHERE: what".
+template <class... Values>
+[[noreturn]] void fail(const std::string& where, fmt::format_string<Values...> what, Values&&... values) {
+  throw std::runtime_error(where + ": " + fmt::format(what, std::forward<Values>(values)...));
+}
+/// The place of a line in messages.
+inline std::string line_of(const std::string& file, std::size_t line) {
+  return fmt::format("{}:{}", file, line);
+}
 
 /// The bytes of a file, or of stdin if `file` is `-`. Throws std::runtime_error.
 std::string contents_of(const std::string& file);

@@ -18,10 +18,6 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r\f\v";
 
-[[noreturn]] void fail(const std::string& file, std::size_t line, const std::string& what) {
-  throw std::runtime_error(fmt::format("{}:{}: {}", file, line, what));
-}
-
 bool is_space(char c) { return kBlanks.find(c) != kBlanks.npos; }
 bool is_blank(char c) { return c == ' ' || c == ',' || is_space(c); }
 bool begins_comment(char c) { return c == '#' || c == '!' || c == '%'; }
@@ -313,7 +309,7 @@ TextLayout layout_of(std::string_view text, const std::string& file, const TextF
   TextLayout layout;
   const std::size_t mark = text.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0;
   if (text.find('\n') == text.npos && trimmed(text).find('\r') != text.npos)
-    fail(file, 1, "lines end with CR alone: end them with LF, for example by `tr '\\r' '\\n'`");
+    fail(file + ":1", "lines end with CR alone: end them with LF, for example by `tr '\\r' '\\n'`");
   std::string_view rest = text.substr(mark), comment;
   bool has_row = false;
   for (std::size_t number = 1; !has_row && !rest.empty(); ++number) {
@@ -336,10 +332,9 @@ TextLayout layout_of(std::string_view text, const std::string& file, const TextF
     }
     if (is_header(cells)) {
       if (layout.header_line > 0)
-        fail(file, number,
-             fmt::format(
-                 "a second header line, after the one in line {}: remove one of them, or put # before it",
-                 layout.header_line));
+        fail(line_of(file, number),
+             "a second header line, after the one in line {}: remove one of them, or put # before it",
+             layout.header_line);
       layout.header_line = number;
       // The names in a header may contain #.
       layout.format = format_of(content, format);
@@ -357,10 +352,11 @@ TextLayout layout_of(std::string_view text, const std::string& file, const TextF
     layout.line = number;
     layout.columns = layout.header_line > 0 ? layout.names.size() : cells.size();
   }
+  layout.where = layout.header_line > 0 ? line_of(file, layout.header_line) : file;
   if (!has_row) {
     if (layout.header_line > 0)
-      fail(file, layout.header_line, "a header line, and no row of numbers after it: add the nodes");
-    throw std::runtime_error(file + ": no points: expected lines 'lon lat' or 'x y z'");
+      fail(layout.where, "a header line, and no row of numbers after it: add the nodes");
+    fail(file, "no points: expected lines 'lon lat' or 'x y z'");
   }
   if (layout.header_line == 0 && !comment.empty()) {
     const TextFormat of_rows = layout.format;
@@ -396,7 +392,7 @@ TextRows rows_of(std::string_view text, const std::string& file, const TextLayou
     }
     if (has_comments && error_at(content).empty()) line = without_comment(line);
     if (!split(line, layout.format, cells))
-      fail(file, number, "a double quote without an end: add it, or say --quote none");
+      fail(line_of(file, number), "a double quote without an end: add it, or say --quote none");
     if (cells.empty()) continue;
     for (std::size_t c = 0; c < std::min(cells.size(), layout.columns); ++c) {
       const Role role = roles[c];
@@ -412,32 +408,29 @@ TextRows rows_of(std::string_view text, const std::string& file, const TextLayou
         if (role == Role::place || (role == Role::value && !is_missing(word))) {
           // Look for another separator before blaming a word.
           const std::string other = of_other_count(line, 0, layout);
-          fail(file, number,
+          fail(line_of(file, number), "{}",
                other.rfind("separated", 0) == 0 && layout.columns > 1 ? other : why_not(word, c, layout));
         }
         if (!is_missing(word)) has_words[c] = true;
       }
       rows.numbers[c].push_back(value);
     }
-    if (cells.size() != layout.columns) fail(file, number, of_other_count(line, cells.size(), layout));
+    if (cells.size() != layout.columns)
+      fail(line_of(file, number), "{}", of_other_count(line, cells.size(), layout));
     rows.lines.push_back(number);
     rows.segments.push_back(segments);
   }
   if (layout.line_of_count > 0 && layout.count != rows.lines.size())
-    fail(file, layout.line_of_count,
-         fmt::format(
-             "a single number is the count of the points that follow; there are {}: correct or remove it",
-             rows.lines.size()));
+    fail(line_of(file, layout.line_of_count),
+         "a single number is the count of the points that follow; there are {}: correct or remove it",
+         rows.lines.size());
   if (segments == 0) rows.segments.clear();
   for (std::size_t c = 0; c < layout.columns; ++c)
     if (has_words[c]) rows.numbers[c].clear();
   return rows;
 }
 
-std::vector<std::size_t> columns_named(const std::string& wanted, const TextLayout& layout,
-                                       const std::string& file) {
-  const std::string where = layout.header_line > 0 ? fmt::format("{}:{}", file, layout.header_line) : file;
-  const auto refuse = [&](const std::string& what) { throw std::runtime_error(where + ": " + what); };
+std::vector<std::size_t> columns_named(const std::string& wanted, const TextLayout& layout) {
   std::vector<std::size_t> columns;
   for (const std::string& part : parts_of(wanted, ',')) {
     const std::string word(trimmed(part));
@@ -449,20 +442,20 @@ std::vector<std::size_t> columns_named(const std::string& wanted, const TextLayo
     find_all([&](const std::string& name) { return name == word; });
     if (found.empty()) find_all([&](const std::string& name) { return lower(name) == lower(word); });
     if (found.size() > 1)
-      refuse(fmt::format("the header names column '{}' twice, {} and {}: choose columns by number",
-                         excerpt(word), found[0] + 1, found[1] + 1));
+      fail(layout.where, "the header names column '{}' twice, {} and {}: choose columns by number",
+           excerpt(word), found[0] + 1, found[1] + 1);
     if (double number = 0; found.empty() && is_number(word, number)) {
       if (number != std::floor(number) || number < 1 || number > static_cast<double>(layout.columns))
-        refuse(fmt::format("there is no column {}: there are {}", excerpt(word), layout.columns));
+        fail(layout.where, "there is no column {}: there are {}", excerpt(word), layout.columns);
       found.push_back(static_cast<std::size_t>(number) - 1);
     }
+    if (found.empty() && layout.names.empty())
+      fail(layout.where, "the columns have no names: choose them by number, not '{}'", excerpt(word));
     if (found.empty())
-      refuse(layout.names.empty()
-                 ? fmt::format("the columns have no names: choose them by number, not '{}'", excerpt(word))
-                 : fmt::format("there is no column '{}'{}; the header has {}", excerpt(word),
-                               did_you_mean(word, layout.names), listed(layout.names)));
+      fail(layout.where, "there is no column '{}'{}; the header has {}", excerpt(word),
+           did_you_mean(word, layout.names), listed(layout.names));
     if (std::find(columns.begin(), columns.end(), found[0]) != columns.end())
-      refuse(fmt::format("column '{}' is chosen twice", excerpt(word)));
+      fail(layout.where, "column '{}' is chosen twice", excerpt(word));
     columns.push_back(found[0]);
   }
   return columns;

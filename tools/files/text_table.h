@@ -28,6 +28,7 @@ struct TextLayout {
   std::vector<std::string> names;   ///< of the columns; empty: no header
   std::vector<std::string> units;   ///< of the columns: "depth [km]", "depth (km)"; as many as names
   std::size_t header_line = 0;      ///< from 1; 0: no header, or the names are in a comment
+  std::string where;                ///< in messages: the file, and the header line if there is one
   std::size_t begin = 0, line = 1;  ///< offset of the first row, and its line
   std::size_t count = 0,
               line_of_count = 0;  ///< number of rows that a first line with a single number announces
@@ -62,8 +63,7 @@ TextRows rows_of(std::string_view text, const std::string& file, const TextLayou
                  const std::vector<Role>& roles);
 
 /// The columns that `wanted` lists by name or number (from 1), separated by commas.
-std::vector<std::size_t> columns_named(const std::string& wanted, const TextLayout& layout,
-                                       const std::string& file);
+std::vector<std::size_t> columns_named(const std::string& wanted, const TextLayout& layout);
 
 /// The coordinate that a column's name stands for: 'o' longitude, 'a' latitude, 'x', 'y', 'z'; 0: none.
 char axis_of(const std::string& name);

@@ -15,10 +15,6 @@
 namespace files {
 namespace {
 
-[[noreturn]] void fail(const std::string& file, std::size_t feature, const std::string& what) {
-  throw std::runtime_error(fmt::format("{}: feature {}: {}", file, feature, what));
-}
-
 /// A ring once around the globe along a parallel becomes the cap between the parallel and the nearer pole.
 void make_cap(Line& corners) {
   const auto [west, east] = std::minmax_element(corners.begin(), corners.end());
@@ -28,36 +24,29 @@ void make_cap(Line& corners) {
   corners = {*west, *east, {east->first, pole}, {west->first, pole}, *west};
 }
 
-/// The polygons of each feature.
-std::vector<std::pair<Shape, std::vector<MapRegion>>> polygons_of(const std::string& file) {
-  std::vector<std::pair<Shape, std::vector<MapRegion>>> all;
-  for (Shape& shape : read_shapes(file, "polygons", {"Polygon", "MultiPolygon"})) {
-    std::vector<MapRegion> polygons;
-    for (std::vector<Line>& rings : shape.parts) {
+/// The features of a file, whose rings are closed.
+std::vector<Shape> shapes_of(const std::string& file) {
+  std::vector<Shape> shapes = read_shapes(file, "polygons", {"Polygon", "MultiPolygon"});
+  for (Shape& shape : shapes)
+    for (std::vector<Line>& rings : shape.parts)
       for (Line& ring : rings) {
-        if (ring.size() < 4) fail(file, shape.number, "a ring with fewer than four corners");
+        if (ring.size() < 4) fail(shape.where, "a ring with fewer than four corners");
         for (std::size_t i = 1; i < ring.size(); ++i) {
           const double lon = ring[i].first, before = ring[i - 1].first;
           if (std::fabs(lon - before) > 180 && std::fabs(lon - before) < 360)
-            fail(file, shape.number,
-                 fmt::format("its side from longitude {:g} to {:g} goes around the globe: cut the polygon at "
-                             "180, or write {:g} in place of {:g}",
-                             before, lon, std::min(before, lon) + 360, std::min(before, lon)));
+            fail(shape.where,
+                 "its side from longitude {:g} to {:g} goes around the globe: cut the polygon at "
+                 "180, or write {:g} in place of {:g}",
+                 before, lon, std::min(before, lon) + 360, std::min(before, lon));
         }
         make_cap(ring);
         const auto [first, last] = std::pair(ring.front(), ring.back());
         if (std::fabs(first.first - last.first) == 360)
-          fail(file, shape.number,
-               fmt::format("a ring around a pole: continue it by {:g},{:g} {:g},{:g} and its first corner",
-                           last.first, std::copysign(90, last.second), first.first,
-                           std::copysign(90, last.second)));
-        if (first != last) fail(file, shape.number, "a ring that is not closed: repeat its first corner");
+          fail(shape.where, "a ring around a pole: continue it by {:g},{:g} {:g},{:g} and its first corner",
+               last.first, std::copysign(90, last.second), first.first, std::copysign(90, last.second));
+        if (first != last) fail(shape.where, "a ring that is not closed: repeat its first corner");
       }
-      polygons.push_back({shape.number, shape.name, std::move(rings)});
-    }
-    all.emplace_back(std::move(shape), std::move(polygons));
-  }
-  return all;
+  return shapes;
 }
 
 /// Not a number if there is none.
@@ -110,24 +99,24 @@ double MapRegion::area() const {
 std::vector<MapRegion> read_polygons(const std::string& file, double radius) {
   if (std::filesystem::path(file).extension() == ".pts") return {read_pts(file, radius)};
   std::vector<MapRegion> all;
-  for (auto& [shape, polygons] : polygons_of(file))
-    for (MapRegion& polygon : polygons) all.push_back(std::move(polygon));
+  for (Shape& shape : shapes_of(file))
+    for (std::vector<Line>& rings : shape.parts) all.push_back({shape.number, shape.name, std::move(rings)});
   return all;
 }
 
 std::vector<WidthRegion> read_width_regions(const std::string& file) {
   std::vector<WidthRegion> regions;
-  for (const auto& [shape, polygons] : polygons_of(file)) {
+  for (const Shape& shape : shapes_of(file)) {
     WidthRegion& region = regions.emplace_back();
     region.feature = shape.number;
-    for (const MapRegion& polygon : polygons)
-      region.rings.insert(region.rings.end(), polygon.rings.begin(), polygon.rings.end());
+    for (const std::vector<Line>& rings : shape.parts)
+      region.rings.insert(region.rings.end(), rings.begin(), rings.end());
     region.width = number_in(shape.properties, "width");
     if (shape.properties.contains("transition") && !shape.properties["transition"].is_null())
       region.transition = number_in(shape.properties, "transition");
-    if (!(region.width > 0)) fail(file, shape.number, "it needs the property width, in km and above 0");
+    if (!(region.width > 0)) fail(shape.where, "it needs the property width, in km and above 0");
     if (!(region.transition >= 0))
-      fail(file, shape.number, "its property transition must be in km, and not negative");
+      fail(shape.where, "its property transition must be in km, and not negative");
   }
   return regions;
 }

@@ -17,7 +17,7 @@ bool ends_with(const std::string& text, const std::string& end) {
   return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-[[noreturn]] void refuse(const OutputFile& file, Format format, const char* why) {
+[[noreturn]] void refuse(OutputFile& file, Format format, const char* why) {
   for (const FormatEntry& f : formats())
     if (f.format == format) throw std::runtime_error(file.name() + ": " + f.name + " " + why);
   throw std::logic_error("a format that is not in the table");
@@ -31,13 +31,11 @@ std::vector<std::int32_t> corners_from_0(const Faces& faces, std::size_t f) {
   return corners;
 }
 
-void write_off(const OutputFile& file, const Faces& faces) {
-  TextWriter out(file);
-  out.print("OFF\n{} {} 0\n", faces.points.size(), faces.size());
-  for (const Point& p : faces.points) out.print("{} {} {}\n", p.x, p.y, p.z);
+void write_off(OutputFile& file, const Faces& faces) {
+  file.print("OFF\n{} {} 0\n", faces.points.size(), faces.size());
+  for (const Point& p : faces.points) file.print("{} {} {}\n", p.x, p.y, p.z);
   for (std::size_t f = 0; f < faces.size(); ++f)
-    out.print("{} {}\n", faces.corners(f), fmt::join(corners_from_0(faces, f), " "));
-  out.close();
+    file.print("{} {}\n", faces.corners(f), fmt::join(corners_from_0(faces, f), " "));
 }
 
 /// The columns, preceded by the given longitudes and latitudes.
@@ -60,107 +58,95 @@ std::string plain_name(std::string name) {
   return name;
 }
 
-void write_gmsh(const OutputFile& file, const Faces& faces) {
-  TextWriter out(file);
-  out.print("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{}\n", faces.points.size());
+void write_gmsh(OutputFile& file, const Faces& faces) {
+  file.print("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{}\n", faces.points.size());
   for (std::size_t i = 0; i < faces.points.size(); ++i)
-    out.print("{} {} {} {}\n", i + 1, faces.points[i].x, faces.points[i].y, faces.points[i].z);
-  out.print("$EndNodes\n$Elements\n{}\n", faces.size());
+    file.print("{} {} {} {}\n", i + 1, faces.points[i].x, faces.points[i].y, faces.points[i].z);
+  file.print("$EndNodes\n$Elements\n{}\n", faces.size());
   const std::int32_t* const corners = faces.corner.data();
   for (std::size_t f = 0; f < faces.size(); ++f)  // type 2, a triangle, with two tags
-    out.print("{} 2 2 1 1 {}\n", f + 1, fmt::join(corners + 3 * f, corners + 3 * f + 3, " "));
-  out.print("$EndElements\n");
+    file.print("{} 2 2 1 1 {}\n", f + 1, fmt::join(corners + 3 * f, corners + 3 * f + 3, " "));
+  file.print("$EndElements\n");
   const auto write_data = [&](const char* section, const Columns& columns) {
     for (const Column& c : columns) {
       if (c.is_text()) continue;  // gmsh stores numbers only
-      out.print("${}\n1\n\"{}\"\n1\n0\n3\n0\n1\n{}\n", section, plain_name(c.name), c.size());
-      for (std::size_t i = 0; i < c.size(); ++i) out.print("{} {}\n", i + 1, c.numbers[i]);
-      out.print("$End{}\n", section);
+      file.print("${}\n1\n\"{}\"\n1\n0\n3\n0\n1\n{}\n", section, plain_name(c.name), c.size());
+      for (std::size_t i = 0; i < c.size(); ++i) file.print("{} {}\n", i + 1, c.numbers[i]);
+      file.print("$End{}\n", section);
     }
   };
   write_data("NodeData", with_angles(faces.columns_of_points, faces.given_points));
   write_data("ElementData", faces.columns_of_faces);
-  out.close();
 }
 
 /// VTK's XML format for unstructured grids, as text.
-void write_vtu(const OutputFile& file, const Faces& faces) {
+void write_vtu(OutputFile& file, const Faces& faces) {
   const bool triangles = faces.most_corners() == 3;
-  TextWriter out(file);
   const auto begin = [&](const char* type, const char* name) {
-    out.print("<DataArray type=\"{}\" Name=\"{}\" format=\"ascii\">\n", type, name);
+    file.print("<DataArray type=\"{}\" Name=\"{}\" format=\"ascii\">\n", type, name);
   };
-  const auto end = [&] { out.print("</DataArray>\n"); };
-  out.print(
+  const auto end = [&] { file.print("</DataArray>\n"); };
+  file.print(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
       "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
       "<Points>\n<DataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\" format=\"ascii\">\n",
       faces.points.size(), faces.size());
-  for (const Point& p : faces.points) out.print("{} {} {}\n", p.x, p.y, p.z);
+  for (const Point& p : faces.points) file.print("{} {} {}\n", p.x, p.y, p.z);
   end();
-  out.print("</Points>\n<Cells>\n");
+  file.print("</Points>\n<Cells>\n");
   begin("Int32", "connectivity");
-  for (std::size_t f = 0; f < faces.size(); ++f) out.print("{}\n", fmt::join(corners_from_0(faces, f), " "));
+  for (std::size_t f = 0; f < faces.size(); ++f) file.print("{}\n", fmt::join(corners_from_0(faces, f), " "));
   end();
   begin("Int64", "offsets");
-  for (std::size_t f = 0; f < faces.size(); ++f) out.print("{}\n", faces.begin[f + 1]);
+  for (std::size_t f = 0; f < faces.size(); ++f) file.print("{}\n", faces.begin[f + 1]);
   end();
   begin("UInt8", "types");
-  for (std::size_t f = 0; f < faces.size(); ++f) out.print("{}\n", triangles ? 5 : 7);
+  for (std::size_t f = 0; f < faces.size(); ++f) file.print("{}\n", triangles ? 5 : 7);
   end();
-  out.print("</Cells>\n");
+  file.print("</Cells>\n");
   const auto write_data = [&](const char* section, const Columns& columns) {
-    out.print("<{}>\n", section);
+    file.print("<{}>\n", section);
     for (const Column& c : columns) {
       if (c.is_text()) continue;  // many readers of VTK accept numbers only
       begin(c.whole ? "Int32" : "Float64", plain_name(c.name).c_str());
-      for (const double v : c.numbers) out.print("{}\n", v);
+      for (const double v : c.numbers) file.print("{}\n", v);
       end();
     }
-    out.print("</{}>\n", section);
+    file.print("</{}>\n", section);
   };
   write_data("PointData", with_angles(faces.columns_of_points, faces.given_points));
   write_data("CellData", with_angles(faces.columns_of_faces, faces.given_centres));
-  out.print("</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
-  out.close();
+  file.print("</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
 }
 
 /// The format that `stripack-compare lists` reads.
-void write_lists(const OutputFile& file, const Mesh& mesh) {
-  TextWriter out(file);
+void write_lists(OutputFile& file, const Mesh& mesh) {
   const auto all = [&](const std::vector<std::int32_t>& values, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i)
-      out.print(i % 12 == 11 || i + 1 == count ? "{}\n" : "{} ", values[i]);
+      file.print(i % 12 == 11 || i + 1 == count ? "{}\n" : "{} ", values[i]);
   };
   const auto slots = static_cast<std::size_t>(mesh.lnew) - 1;
-  out.print("{} {}\n", mesh.points.size(), mesh.lnew);
+  file.print("{} {}\n", mesh.points.size(), mesh.lnew);
   all(mesh.list, slots);
   all(mesh.lptr, slots);
   all(mesh.lend, mesh.points.size());
-  out.close();
 }
 
 /// Nodes with 1 at the boundary, else 0, and in a file beside them the triangles.
-void write_fesom(const OutputFile& file, const Mesh& mesh) {
+void write_fesom(OutputFile& file, const Mesh& mesh) {
   const std::string nodes = "nod2d.out";
   if (!file.has_a_name() || !ends_with("/" + file.name(), nodes))
     refuse(file, Format::fesom, "has files called nod2d.out and elem2d.out: -o nod2d.out");
-  {
-    const LonLat angles = angles_of(mesh.points, mesh.given, true);
-    TextWriter out(file);
-    out.print("{}\n", mesh.points.size());
-    for (std::size_t i = 0; i < mesh.points.size(); ++i)
-      out.print("{} {} {} {}\n", i + 1, wrapped(angles.lon[i]), angles.lat[i],
-                mesh.list[static_cast<std::size_t>(mesh.lend[i]) - 1] < 0 ? 1 : 0);
-    out.close();
-  }
+  const LonLat angles = angles_of(mesh.points, mesh.given, true);
+  file.print("{}\n", mesh.points.size());
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+    file.print("{} {} {} {}\n", i + 1, wrapped(angles.lon[i]), angles.lat[i],
+               mesh.list[static_cast<std::size_t>(mesh.lend[i]) - 1] < 0 ? 1 : 0);
   OutputFile beside(file.name().substr(0, file.name().size() - nodes.size()) + "elem2d.out");
   const std::vector<std::int32_t> triangles = triangles_of(mesh);
-  TextWriter out(beside);
-  out.print("{}\n", triangles.size() / 3);
+  beside.print("{}\n", triangles.size() / 3);
   for (std::size_t k = 0; k < triangles.size(); k += 3)
-    out.print("{} {} {}\n", triangles[k], triangles[k + 1], triangles[k + 2]);
-  out.close();
+    beside.print("{} {} {}\n", triangles[k], triangles[k + 1], triangles[k + 2]);
   beside.commit();
 }
 
@@ -232,7 +218,7 @@ std::string json_text(const std::string& text) {
 }
 
 /// Row i of the column; `missing` stands for NaN. `as_written`: numbers as they stand in the input.
-void print_cell(TextWriter& out, const Column& column, std::size_t i, std::string (*text)(const std::string&),
+void print_cell(OutputFile& out, const Column& column, std::size_t i, std::string (*text)(const std::string&),
                 const char* missing, bool as_written = false) {
   if (column.is_text() || (as_written && !column.texts.empty()))
     out.print("{}", text(column.texts[i]));
@@ -243,7 +229,7 @@ void print_cell(TextWriter& out, const Column& column, std::size_t i, std::strin
 }
 
 /// The cells of row i, each but the first after the separator.
-void print_row(TextWriter& out, const Columns& table, std::size_t i, const char* separator,
+void print_row(OutputFile& out, const Columns& table, std::size_t i, const char* separator,
                std::string (*text)(const std::string&), const char* missing, bool as_written = false) {
   for (std::size_t k = 0; k < table.size(); ++k) {
     if (k > 0) out.print("{}", separator);
@@ -252,48 +238,44 @@ void print_row(TextWriter& out, const Columns& table, std::size_t i, const char*
 }
 
 /// The header line has units in the form that text_table.h reads. A missing value is an empty cell.
-void write_csv(const OutputFile& file, const Columns& table) {
-  TextWriter out(file);
+void write_csv(OutputFile& file, const Columns& table) {
   for (std::size_t k = 0; k < table.size(); ++k) {
     const Column& c = table[k];
     const bool has_units = !c.units.empty() && !ends_with(c.name, "_" + c.units) && c.units != "degrees";
-    out.print("{}{}", k == 0 ? "" : ",", csv_text(has_units ? c.name + " [" + c.units + "]" : c.name));
+    file.print("{}{}", k == 0 ? "" : ",", csv_text(has_units ? c.name + " [" + c.units + "]" : c.name));
   }
-  out.print("\n");
+  file.print("\n");
   for (std::size_t i = 0; i < table[0].size(); ++i) {
-    print_row(out, table, i, ",", csv_text, "", true);
-    out.print("\n");
+    print_row(file, table, i, ",", csv_text, "", true);
+    file.print("\n");
   }
-  out.close();
 }
 
-/// One line per feature (RFC 7946). `write_geometry(out, i)` writes the geometry of feature i.
+/// One line per feature (RFC 7946). `write_geometry(file, i)` writes the geometry of feature i.
 template <class WriteGeometry>
-void write_features(const OutputFile& file, const Columns& table, const Notes& notes,
+void write_features(OutputFile& file, const Columns& table, const Notes& notes,
                     const WriteGeometry& write_geometry) {
   std::vector<std::string> names;
   for (const Column& c : table) names.push_back(json_text(c.name));
-  TextWriter out(file);
-  out.print("{{\"type\":\"FeatureCollection\",");
-  for (const auto& [name, text] : notes) out.print("{}:{},", json_text(name), json_text(text));
-  out.print("\"features\":[");
+  file.print("{{\"type\":\"FeatureCollection\",");
+  for (const auto& [name, text] : notes) file.print("{}:{},", json_text(name), json_text(text));
+  file.print("\"features\":[");
   for (std::size_t i = 0; i < table[0].size(); ++i) {
-    out.print("{}\n{{\"type\":\"Feature\",\"properties\":{{", i == 0 ? "" : ",");
+    file.print("{}\n{{\"type\":\"Feature\",\"properties\":{{", i == 0 ? "" : ",");
     for (std::size_t k = 0; k < table.size(); ++k) {
-      out.print("{}{}:", k == 0 ? "" : ",", names[k]);
-      print_cell(out, table[k], i, json_text, "null");
+      file.print("{}{}:", k == 0 ? "" : ",", names[k]);
+      print_cell(file, table[k], i, json_text, "null");
     }
-    out.print("}},\"geometry\":");
-    write_geometry(out, i);
-    out.print("}}");
+    file.print("}},\"geometry\":");
+    write_geometry(i);
+    file.print("}}");
   }
-  out.print("\n]}}\n");
-  out.close();
+  file.print("\n]}}\n");
 }
 
 /// The geometry of these parts: of `kind`, or if there are several of "Multi" and `kind`; null if there are
 /// none.
-void write_geometry(TextWriter& out, const std::string& kind, const std::vector<MapRing>& parts) {
+void write_geometry(OutputFile& out, const std::string& kind, const std::vector<MapRing>& parts) {
   if (parts.empty()) return out.print("null");
   const bool is_one = parts.size() == 1, is_closed = kind == "Polygon";
   out.print("{{\"type\":\"{}{}\",\"coordinates\":{}", is_one ? "" : "Multi", kind, is_one ? "" : "[");
@@ -310,46 +292,44 @@ void write_geometry(TextWriter& out, const std::string& kind, const std::vector<
 
 /// Counterclockwise polygons, unless the variant says otherwise, cut at the dateline; null if all corners
 /// coincide.
-void write_geojson(const OutputFile& file, const Faces& faces, const Notes& notes) {
+void write_geojson(OutputFile& file, const Faces& faces, const Notes& notes) {
   const MapLines lines(faces);
-  write_features(file, table_of(faces), notes, [&](TextWriter& out, std::size_t f) {
+  write_features(file, table_of(faces), notes, [&](std::size_t f) {
     std::vector<MapRing> polygons = lines.polygons(f);
     for (MapRing& ring : polygons)
       if (faces.variant.clockwise) std::reverse(ring.begin(), ring.end());
-    write_geometry(out, "Polygon", polygons);
+    write_geometry(file, "Polygon", polygons);
   });
 }
 
 /// GMT's multi-segment files: one segment per polygon, with values as in its OGR/GMT format.
-void write_gmt(const OutputFile& file, const Faces& faces) {
+void write_gmt(OutputFile& file, const Faces& faces) {
   const Columns table = table_of(faces);
   const LonLat angles = angles_of(faces.points, faces.given_points, true);
-  TextWriter out(file);
-  out.print("# @VGMT1.0 @GPOLYGON @Je4326\n");
+  file.print("# @VGMT1.0 @GPOLYGON @Je4326\n");
   for (const bool types : {false, true}) {
-    out.print(types ? "# @T" : "# @N");
+    file.print(types ? "# @T" : "# @N");
     for (std::size_t k = 0; k < table.size(); ++k) {
       const Column& c = table[k];
-      out.print("{}{}", k == 0 ? "" : "|",
-                !types        ? plain_name(c.name)
-                : c.is_text() ? "string"
-                : c.whole     ? "integer"
-                              : "double");
+      file.print("{}{}", k == 0 ? "" : "|",
+                 !types        ? plain_name(c.name)
+                 : c.is_text() ? "string"
+                 : c.whole     ? "integer"
+                               : "double");
     }
-    out.print("\n");
+    file.print("\n");
   }
-  out.print("# FEATURE_DATA\n");
+  file.print("# FEATURE_DATA\n");
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    out.print(">\n# @D");
-    print_row(out, table, f, "|", gmt_text, "NaN");
-    out.print("\n# @P\n");
+    file.print(">\n# @D");
+    print_row(file, table, f, "|", gmt_text, "NaN");
+    file.print("\n# @P\n");
     for (std::size_t k = faces.begin[f]; k <= faces.begin[f + 1]; ++k) {
       const std::size_t slot = k < faces.begin[f + 1] ? k : faces.begin[f];
       const auto i = static_cast<std::size_t>(faces.corner[slot]) - 1;
-      out.print("{}\t{}\n", angles.lon[i], angles.lat[i]);
+      file.print("{}\t{}\n", angles.lon[i], angles.lat[i]);
     }
   }
-  out.close();
 }
 
 }  // namespace
@@ -392,31 +372,19 @@ std::optional<Format> format_of(const std::string& to, const std::string& file) 
   return found;
 }
 
-void write_faces(const OutputFile& file, Format format, const Faces& faces, const Notes& notes) {
-  switch (format) {
-    case Format::ugrid:
-      return write_ugrid(file, faces, faces.points, {}, notes);
-    case Format::scrip:
-      return write_scrip(file, faces, notes);
-    case Format::esmf:
-      return write_esmf(file, faces, notes);
-    case Format::vtu:
-      return write_vtu(file, faces);
-    case Format::off:
-      return write_off(file, faces);
-    case Format::gmt:
-      return write_gmt(file, faces);
-    case Format::geojson:
-      return write_geojson(file, faces, notes);
-    case Format::csv:
-      return write_csv(file, table_of(faces));
-    default:
-      refuse(file, format,
-             "cannot hold polygons: --to ugrid, scrip, esmf, vtu, off, gmt, geojson or csv can");
-  }
+void write_faces(OutputFile& file, Format format, const Faces& faces, const Notes& notes) {
+  if (format == Format::ugrid) return write_ugrid(file, faces, faces.points, {}, notes);
+  if (format == Format::scrip) return write_scrip(file, faces, notes);
+  if (format == Format::esmf) return write_esmf(file, faces, notes);
+  if (format == Format::vtu) return write_vtu(file, faces);
+  if (format == Format::off) return write_off(file, faces);
+  if (format == Format::gmt) return write_gmt(file, faces);
+  if (format == Format::geojson) return write_geojson(file, faces, notes);
+  if (format == Format::csv) return write_csv(file, table_of(faces));
+  refuse(file, format, "cannot hold polygons: --to ugrid, scrip, esmf, vtu, off, gmt, geojson or csv can");
 }
 
-void write_mesh(const OutputFile& file, Format format, const Mesh& mesh) {
+void write_mesh(OutputFile& file, Format format, const Mesh& mesh) {
   if (mesh.longest > 0 && (format == Format::mpas || format == Format::lists || format == Format::fesom))
     refuse(file, format, "holds whole triangulations: leave out --longest");
   if (format == Format::mpas) return write_mpas(file, mesh);
@@ -431,7 +399,7 @@ void write_mesh(const OutputFile& file, Format format, const Mesh& mesh) {
   write_faces(file, format, faces, mesh.notes);
 }
 
-void write_links(const OutputFile& file, Format format, const Mesh& mesh) {
+void write_links(OutputFile& file, Format format, const Mesh& mesh) {
   const Links links = links_of(mesh);
   Columns table = node_columns(links.nodes, 2, mesh.columns);
   Column& length = table.emplace_back(Column{"length_km", "", "km"});
@@ -443,60 +411,55 @@ void write_links(const OutputFile& file, Format format, const Mesh& mesh) {
   nodes.given_points = mesh.given;
   nodes.begin = {0};
   const MapLines lines(nodes);
-  write_features(file, table, mesh.notes, [&](TextWriter& out, std::size_t i) {
-    write_geometry(out, "LineString", lines.lines(links.nodes[2 * i], links.nodes[2 * i + 1]));
+  write_features(file, table, mesh.notes, [&](std::size_t i) {
+    write_geometry(file, "LineString", lines.lines(links.nodes[2 * i], links.nodes[2 * i + 1]));
   });
 }
 
-void write_hull(const OutputFile& file, Format format, const Mesh& mesh) {
+void write_hull(OutputFile& file, Format format, const Mesh& mesh) {
   if (format != Format::csv) return write_faces(file, format, hull_face(mesh), mesh.notes);
   std::vector<std::size_t> corners;
   for (const std::int32_t node : hull_of(mesh)) corners.push_back(static_cast<std::size_t>(node) - 1);
-  write_nodes(file, format, values_at(mesh.points, corners),
-              {at_nodes(mesh.given, corners), {}, at_nodes(mesh.columns, corners), mesh.notes});
+  write_nodes(file, format, values_at(mesh.points, corners), at_nodes(mesh, corners));
 }
 
-void write_nodes(const OutputFile& file, Format format, const std::vector<Point>& points,
+void write_nodes(OutputFile& file, Format format, const std::vector<Point>& points,
                  const NodeValues& values) {
   if (format == Format::netcdf) return write_netcdf_nodes(file, points, values);
   if (format == Format::csv) return write_csv(file, table_of(points, values));
   if (format == Format::geojson) {
     const LonLat angles = angles_of(points, values.given, true);
-    return write_features(file, table_of(points, values), values.notes, [&](TextWriter& out, std::size_t i) {
-      out.print("{{\"type\":\"Point\",\"coordinates\":[{},{}]}}", wrapped(angles.lon[i]), angles.lat[i]);
+    return write_features(file, table_of(points, values), values.notes, [&](std::size_t i) {
+      file.print("{{\"type\":\"Point\",\"coordinates\":[{},{}]}}", wrapped(angles.lon[i]), angles.lat[i]);
     });
   }
   if (holds_a_mesh(format)) refuse(file, format, "holds a mesh, and here are nodes only: use `triangulate`");
-  TextWriter out(file);
   if (format == Format::raw) {
-    out.write(points.data(), points.size() * sizeof(Point));
+    file.write(points.data(), points.size() * sizeof(Point));
   } else if (format == Format::xyz) {
-    for (const Point& p : points) out.print("{} {} {}\n", p.x, p.y, p.z);
+    for (const Point& p : points) file.print("{} {} {}\n", p.x, p.y, p.z);
   } else {
     const LonLat angles = angles_of(points, values.given, true);
-    for (std::size_t i = 0; i < points.size(); ++i) out.print("{} {}\n", angles.lon[i], angles.lat[i]);
+    for (std::size_t i = 0; i < points.size(); ++i) file.print("{} {}\n", angles.lon[i], angles.lat[i]);
   }
-  out.close();
 }
 
-void write_field(const OutputFile& file, const LonLat& places, const Field& field) {
-  TextWriter out(file);
+void write_field(OutputFile& file, const LonLat& places, const Field& field) {
   const auto name = [](const Column& c) {
     return c.units.empty() ? c.name : fmt::format("{} [{}]", c.name, c.units);
   };
   const Columns table = field.table();
-  out.print("# lon lat");
-  for (const Column& c : table) out.print(" {}", name(c));
-  out.print("\n");
+  file.print("# lon lat");
+  for (const Column& c : table) file.print(" {}", name(c));
+  file.print("\n");
   for (std::size_t i = 0; i < field.value.size(); ++i) {
-    out.print("{} {} ", places.lon[i], places.lat[i]);
-    print_row(out, table, i, " ", blank_text, "nan");
-    out.print("\n");
+    file.print("{} {} ", places.lon[i], places.lat[i]);
+    print_row(file, table, i, " ", blank_text, "nan");
+    file.print("\n");
   }
-  out.close();
 }
 
-void write_csv_field(const OutputFile& file, const LonLat& places, const Field& field) {
+void write_csv_field(OutputFile& file, const LonLat& places, const Field& field) {
   write_csv(file, with_angles(field.table(), places));
 }
 

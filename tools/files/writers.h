@@ -47,24 +47,17 @@ bool holds_nodes(Format format);
 std::optional<Format> format_of(const std::string& to, const std::string& file);
 
 /// Writes a triangulation. UGRID, VTU, gmsh, GMT, GeoJSON and CSV also hold its columns.
-void write_mesh(const OutputFile& file, Format format, const Mesh& mesh);
+void write_mesh(OutputFile& file, Format format, const Mesh& mesh);
 /// Writes any polygons: ugrid, scrip, esmf, vtu, off, gmt, geojson, csv. Throws std::runtime_error for other
 /// formats.
-void write_faces(const OutputFile& file, Format format, const Faces& faces, const Notes& notes = {});
+void write_faces(OutputFile& file, Format format, const Faces& faces, const Notes& notes = {});
 /// Writes the arcs of the triangulation, with their lengths: geojson, csv.
-void write_links(const OutputFile& file, Format format, const Mesh& mesh);
+void write_links(OutputFile& file, Format format, const Mesh& mesh);
 /// Writes the convex hull of the nodes as a polygon, in csv as its nodes: formats of write_faces().
-void write_hull(const OutputFile& file, Format format, const Mesh& mesh);
-/// What may be known about nodes without a mesh.
-struct NodeValues {
-  LonLat given = {};
-  std::vector<double> density = {};
-  Columns columns = {};
-  Notes notes = {};
-};
+void write_hull(OutputFile& file, Format format, const Mesh& mesh);
 /// Writes nodes alone: geojson, csv, xyz, lonlat, netcdf, raw. NetCDF also holds density, columns and notes,
 /// GeoJSON columns and notes, CSV columns.
-void write_nodes(const OutputFile& file, Format format, const std::vector<Point>& points,
+void write_nodes(OutputFile& file, Format format, const std::vector<Point>& points,
                  const NodeValues& values = {});
 
 /// Values at places (NaN: missing), and the columns of the places.
@@ -81,10 +74,10 @@ struct Field {
 };
 
 /// Text: lines of lon lat (degrees), value and columns, `nan` for a missing number. CSV: the same columns.
-void write_field(const OutputFile& file, const LonLat& places, const Field& field);
-void write_csv_field(const OutputFile& file, const LonLat& places, const Field& field);
+void write_field(OutputFile& file, const LonLat& places, const Field& field);
+void write_csv_field(OutputFile& file, const LonLat& places, const Field& field);
 /// NetCDF with CF conventions; a missing value is _FillValue. `grid`: that of the places, or empty.
-void write_netcdf_field(const OutputFile& file, const LonLat& places, const Grid& grid, const Field& field);
+void write_netcdf_field(OutputFile& file, const LonLat& places, const Grid& grid, const Field& field);
 
 /// The nodes or the places of weights.
 struct WeightsEnd {
@@ -98,39 +91,29 @@ struct WeightsEnd {
 
 /// Writes weights as ESMF_RegridWeightGen does: the value of place row[k] has the part S[k] of that of node
 /// col[k]. Nodes and places that are in the file but not here have the mask 0.
-void write_weights(const OutputFile& file, const Weights& weights, const WeightsEnd& nodes,
+void write_weights(OutputFile& file, const Weights& weights, const WeightsEnd& nodes,
                    const WeightsEnd& places, const std::string& history);
 
 // In netcdf_meshes.cpp.
 /// `vectors`: the corners with their given lengths.
-void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<Point>& vectors,
+void write_ugrid(OutputFile& file, const Faces& faces, const std::vector<Point>& vectors,
                  const std::vector<double>& density = {}, const Notes& notes = {});
-void write_scrip(const OutputFile& file, const Faces& faces, const Notes& notes = {});
-void write_esmf(const OutputFile& file, const Faces& faces, const Notes& notes = {});
-void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>& points, const NodeValues& values);
+void write_scrip(OutputFile& file, const Faces& faces, const Notes& notes = {});
+void write_esmf(OutputFile& file, const Faces& faces, const Notes& notes = {});
+void write_netcdf_nodes(OutputFile& file, const std::vector<Point>& points, const NodeValues& values);
 
 // In netcdf_mpas.cpp.
 struct MpasMesh;
-/// What is known of an MPAS mesh beside the mesh; given angles and density of each cell, or empty.
-struct MpasValues {
-  LonLat given;
-  std::vector<double> density;
-  Notes notes;
-  double radius = 1;  ///< of the sphere; 1: unit sphere
-  /// bdyMaskCell of a limited area (limited_area.h), or empty.
-  std::vector<std::int32_t> layers = {};
-  double nominal = 0;  ///< width of cells of density 1, radians; 0: unknown
-};
-/// Writes the mesh, and beside a file with a name its graph for METIS.
-void write_mpas(const OutputFile& file, const MpasMesh& mesh, const MpasValues& values);
+/// `values`: of the cells. Writes the mesh, and beside a file with a name its graph for METIS.
+void write_mpas(OutputFile& file, const MpasMesh& mesh, const NodeValues& values);
 /// True if the file, not through a pipe, is an MPAS mesh with all lists of neighbours.
 bool is_mpas_mesh(const Nodes& nodes);
 /// Writes the cells of a limited area of the MPAS mesh in `from`, by `layers` of its cells: all variables, of
 /// cells, edges and vertices the rows that stay, in the same order, with new numbers in lists of neighbours;
 /// bdyMaskCell, and which rows they were; the graph as write_mpas().
-void write_mpas_area(const OutputFile& file, const std::string& from, const std::vector<std::int32_t>& layers,
+void write_mpas_area(OutputFile& file, const std::string& from, const std::vector<std::int32_t>& layers,
                      const Notes& notes);
 /// Nodes at the boundary of the triangulation are left out: they have no whole cells.
-void write_mpas(const OutputFile& file, const Mesh& mesh);
+void write_mpas(OutputFile& file, const Mesh& mesh);
 
 }  // namespace files

@@ -19,7 +19,7 @@ std::string valid_utf8(const std::string& text) {
   return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
-void write_png(const files::OutputFile& file, const std::string& svg) {
+void write_png(files::OutputFile& file, const std::string& svg) {
   setenv("PSTRIPACK_PICTURE", file.path().c_str(), 1);
   std::FILE* const converter = popen("rsvg-convert --unlimited --output \"$PSTRIPACK_PICTURE\"", "w");
   if (converter == nullptr || std::fwrite(svg.data(), 1, svg.size(), converter) != svg.size() ||
@@ -41,11 +41,9 @@ void expect_converter(Kind kind) {
     throw std::runtime_error("PNG needs rsvg-convert (Debian: librsvg2-bin); write SVG without it");
 }
 
-void write(const files::OutputFile& file, Kind kind, const std::string& svg) {
+void write(files::OutputFile& file, Kind kind, const std::string& svg) {
   if (kind == Kind::png) return write_png(file, svg);
-  files::TextWriter out(file);
-  out.write(svg.data(), svg.size());
-  out.close();
+  file.write(svg.data(), svg.size());
 }
 
 std::string escaped_for_xml(const std::string& text) {

@@ -20,7 +20,7 @@ std::optional<Kind> kind_of(const std::string& file);
 void expect_converter(Kind kind);
 
 /// Writes the picture; the caller calls commit(). Throws std::runtime_error if it cannot be written.
-void write(const files::OutputFile& file, Kind kind, const std::string& svg);
+void write(files::OutputFile& file, Kind kind, const std::string& svg);
 
 /// The text for an attribute or element of XML; it may contain any bytes.
 std::string escaped_for_xml(const std::string& text);

@@ -30,16 +30,11 @@ std::vector<std::int32_t> layers_in(const files::Nodes& nodes) {
 files::Mesh mesh_in(const files::Nodes& nodes) {
   files::Mesh mesh = nodes.vertices.empty() ? files::mesh_of(nodes.points, nodes.triangles)
                                             : files::mesh_with_boundary(nodes.points, nodes.triangles);
-  mesh.given = nodes.given;
-  mesh.density = nodes.density;
-  mesh.columns = nodes.columns;
-  mesh.notes = nodes.notes;
-  mesh.radius = nodes.radius;
-  mesh.nominal = nodes.nominal;
+  static_cast<files::NodeValues&>(mesh) = nodes;
   return mesh;
 }
 
-void write_whole(const files::OutputFile& file, const Options& options, const files::Nodes& nodes) {
+void write_whole(files::OutputFile& file, const Options& options, const files::Nodes& nodes) {
   files::Mesh mesh = mesh_in(nodes);
   const Output& output = options.output;
   if (!options.region.empty()) {
@@ -56,12 +51,12 @@ void write_whole(const files::OutputFile& file, const Options& options, const fi
     return;
   }
   mesh = files::cut(mesh);
-  write_nodes(file, output.format, mesh.points, {mesh.given, mesh.density, mesh.columns, mesh.notes});
+  write_nodes(file, output.format, mesh.points, mesh);
 }
 
 /// Writes an MPAS mesh with a boundary, which keeps its vertices; in other formats the triangles that have
 /// all corners.
-void write_cut(const files::OutputFile& file, const Output& output, const files::Nodes& nodes) {
+void write_cut(files::OutputFile& file, const Output& output, const files::Nodes& nodes) {
   if (output.format != files::Format::mpas) {
     files::Nodes whole = nodes;
     const auto lacks_corners = [](const pstripack::Triangle& t) { return std::min({t[0], t[1], t[2]}) < 0; };
@@ -75,8 +70,13 @@ void write_cut(const files::OutputFile& file, const Output& output, const files:
   write_mpas(
       file,
       files::mpas_mesh(files::unit(nodes.points), files::unit(nodes.vertices), std::move(cells_on_vertex)),
-      {nodes.given, nodes.density, nodes.notes, output.radius > 0 ? output.radius : nodes.radius,
-       layers_in(nodes), nodes.nominal});
+      {nodes.given,
+       nodes.density,
+       {},
+       nodes.notes,
+       layers_in(nodes),
+       output.radius > 0 ? output.radius : nodes.radius,
+       nodes.nominal});
 }
 
 /// Says which variables of a NetCDF file, those of init_atmosphere for example, the mesh made of it lacks.
@@ -130,7 +130,7 @@ void convert(Options& options) {
           write_cut(file, options.output, nodes);
       });
     } else {
-      write_nodes(file, format, nodes.points, {nodes.given, nodes.density, nodes.columns, nodes.notes});
+      write_nodes(file, format, nodes.points, nodes);
     }
     file.commit();
   });

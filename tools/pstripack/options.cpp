@@ -454,7 +454,7 @@ std::runtime_error no_mesh_of(const Nodes& nodes, const files::NoMesh& why) {
   return std::runtime_error(nodes.file + ": " + why.what());
 }
 
-void write_mesh(const files::OutputFile& file, const Output& output, files::Mesh& mesh) {
+void write_mesh(files::OutputFile& file, const Output& output, files::Mesh& mesh) {
   if (!mesh.layers.empty() && output.format != files::Format::mpas) mesh = files::cut(mesh);
   if (output.radius > 0) mesh.radius = output.radius;
   mesh.variant = output.variant;
@@ -470,11 +470,8 @@ void write_mesh(const files::OutputFile& file, const Output& output, files::Mesh
 files::Mesh triangulate(Nodes& nodes) {
   files::Mesh mesh = with_nodes(nodes, [&] { return files::triangulate(nodes.points); });
   tell_near_nodes(nodes, mesh.lists());
-  mesh.given = std::move(nodes.given);
-  mesh.density = std::move(nodes.density);
-  mesh.columns = std::move(nodes.columns);
-  mesh.notes = std::move(nodes.notes);
-  mesh.radius = nodes.radius;
+  static_cast<files::NodeValues&>(mesh) = std::move(nodes);
+  mesh.nominal = 0;  // of other cells
   return mesh;
 }
 

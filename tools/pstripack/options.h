@@ -144,7 +144,7 @@ auto in_file(const std::string& name, const Work& work) {
 }
 
 /// Writes the mesh as the options say. Tells how many nodes an MPAS mesh leaves out.
-void write_mesh(const files::OutputFile& file, const Output& output, files::Mesh& mesh);
+void write_mesh(files::OutputFile& file, const Output& output, files::Mesh& mesh);
 
 /// The triangulation of the nodes, which gives up its columns and notes to the mesh. Errors name file and
 /// nodes.

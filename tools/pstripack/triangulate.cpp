@@ -47,7 +47,7 @@ void triangulate(Options& options) {
     throw CLI::ValidationError("--longest", "'" + options.longest.text + "' leaves out everything");
   if (options.longest.radians > 0 && options.what == "hull")
     throw CLI::ValidationError("--longest", "the hull is that of all nodes: leave out --longest");
-  run(options, [&](const files::OutputFile& file, files::Mesh& mesh) {
+  run(options, [&](files::OutputFile& file, files::Mesh& mesh) {
     mesh.longest = options.longest.radians;
     if (options.what == "hull") {
       write_hull(file, options.output.format, mesh);
@@ -91,7 +91,7 @@ void clip(files::Faces& faces, const std::string& to) {
 }
 
 void voronoi(Options& options) {
-  run(options, [&](const files::OutputFile& file, const files::Mesh& mesh) {
+  run(options, [&](files::OutputFile& file, const files::Mesh& mesh) {
     const bool are_whole = options.clip_to.empty() && !options.clip_to_hull;
     files::Faces faces = files::voronoi_faces(mesh);
     if (are_whole) tell_huge_cell(options, faces, mesh);

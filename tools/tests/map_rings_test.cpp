@@ -19,7 +19,6 @@ namespace files {
 namespace {
 
 using Points = std::vector<Point>;
-constexpr double kDegree = 57.295779513082321;
 
 double area_on_map(const MapRing& ring) {
   double sum = 0;
@@ -133,6 +132,14 @@ Points pairs(double apart, std::uint64_t seed) {
   return points;
 }
 
+/// The chord between c and the nearest point of the arc from a to b. Computed from differences, so that small
+/// distances keep their digits.
+double distance_to_arc(const Point& c, const Point& a, const Point& b) {
+  const Point n = cross(a, minus(b, a)), from_a = minus(c, a), from_b = minus(c, b);
+  const bool is_beside = dot(cross(n, a), from_a) >= 0 && dot(cross(n, b), from_b) <= 0;
+  return is_beside ? std::fabs(dot(n, from_a)) / length(n) : std::min(length(from_a), length(from_b));
+}
+
 TEST(map, is_covered_once_and_has_each_side_once_each_way) {
   expect_cover_of_mesh(triangulate(read_nodes("stations_111_m_apart.csv")), "three stations");
   expect_cover_of_mesh(triangulate(read_nodes("stations_2_m_apart.csv")), "two stations");
@@ -202,7 +209,7 @@ TEST(map, has_straight_lines_close_to_arcs_and_the_same_on_both_sides_of_an_arc)
           const Point on_line =
               point_sets::from_degrees(p.x() + t * (q.x() - p.x()), p.lat + t * (q.lat - p.lat));
           EXPECT_LE(std::fabs(dot(on_line, normal)) / length(normal),
-                    std::min(0.0011 / kDegree, 0.011 * length(minus(q.p, p.p))));
+                    std::min(0.0011 / kRadian, 0.011 * length(minus(q.p, p.p))));
         }
       }
   for (const auto& [place, times] : met) {
@@ -249,7 +256,7 @@ TEST(map, has_arcs_as_open_lines_cut_at_the_dateline_and_at_a_pole) {
           for (const double t : {0.0, 0.3, 0.5, 0.9, 1.0})
             EXPECT_LT(
                 distance_to_arc(point_sets::from_degrees(line[k].lon + t * x, line[k].lat + t * y), a, b),
-                0.00101 / kDegree)
+                0.00101 / kRadian)
                 << from << ' ' << to;
           length += angle_between(point_sets::from_degrees(line[k].lon, line[k].lat),
                                   point_sets::from_degrees(line[k + 1].lon, line[k + 1].lat));
@@ -361,10 +368,10 @@ LonLats with_bays(double lon, double lat, double radius) {
 double area_within(const LonLats& ring) {
   double sum = 0;
   for (std::size_t i = 0; i + 1 < ring.size(); ++i) {
-    const double y = (ring[i].second + ring[i + 1].second) / 2 / kDegree,
-                 half = (ring[i + 1].second - ring[i].second) / 2 / kDegree;
+    const double y = (ring[i].second + ring[i + 1].second) / 2 / kRadian,
+                 half = (ring[i + 1].second - ring[i].second) / 2 / kRadian;
     sum -=
-        (ring[i + 1].first - ring[i].first) / kDegree * std::sin(y) * (half == 0 ? 1 : std::sin(half) / half);
+        (ring[i + 1].first - ring[i].first) / kRadian * std::sin(y) * (half == 0 ? 1 : std::sin(half) / half);
   }
   return std::fabs(sum);
 }
@@ -453,7 +460,7 @@ TEST(cells, of_polygons_have_the_areas_of_their_plots_at_every_scale) {
         {region({box(8.55 - 1.5 * wide, 8.55 + 1.5 * wide, lat - 1.5 * step, lat + 1.5 * step)})});
     ASSERT_EQ(cells.size(), 9u);
     for (const double area : cells.area)
-      EXPECT_NEAR(area * std::pow(kDegree / step, 2), 1, 1e-9 + 1e-6 / metres + metres / 1e6) << metres;
+      EXPECT_NEAR(area * std::pow(kRadian / step, 2), 1, 1e-9 + 1e-6 / metres + metres / 1e6) << metres;
   }
   const Mesh two =
       triangulate({point_sets::from_degrees(10, 47), point_sets::from_degrees(10.0000000000001, 47),

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "files/map_rings.h"
-#include "lists/adjacency_lists.h"
 #include "point_sets.h"
 
 namespace files {

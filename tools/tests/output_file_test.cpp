@@ -25,28 +25,28 @@ std::size_t entries(const std::string& folder) {
   return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
 
-void write(OutputFile& file, const char* text) {
-  TextWriter out(file);
-  out.print("{}", text);
-  out.close();
-}
-
 TEST(output_file, has_its_name_only_when_it_is_complete) {
   const Folder folder;
   const std::string name = folder.path() + "/a";
   {
     OutputFile file(name);
-    write(file, "new");
+    file.print("new");
     EXPECT_FALSE(std::filesystem::exists(name));
     file.commit();
     EXPECT_EQ(contents(name), "new");
   }
   {
     OutputFile file(name);
-    write(file, "half");
+    file.print("half");
   }
   EXPECT_EQ(contents(name), "new");
   EXPECT_EQ(entries(folder.path()), 1u);
+}
+
+mode_t permissions_of(const std::string& name) {
+  struct stat status {};
+  EXPECT_EQ(stat(name.c_str(), &status), 0);
+  return status.st_mode & 0777;
 }
 
 TEST(output_file, has_the_permissions_of_any_new_file) {
@@ -57,15 +57,7 @@ TEST(output_file, has_the_permissions_of_any_new_file) {
     file.commit();
   }
   umask(before);
-  struct stat status;
-  ASSERT_EQ(stat((folder.path() + "/a").c_str(), &status), 0);
-  EXPECT_EQ(status.st_mode & 0777, 0640u);
-}
-
-mode_t permissions_of(const std::string& name) {
-  struct stat status {};
-  EXPECT_EQ(stat(name.c_str(), &status), 0);
-  return status.st_mode & 0777;
+  EXPECT_EQ(permissions_of(folder.path() + "/a"), 0640u);
 }
 
 TEST(output_file, has_the_permissions_of_the_file_that_it_replaces) {
@@ -76,7 +68,7 @@ TEST(output_file, has_the_permissions_of_the_file_that_it_replaces) {
     chmod(name.c_str(), mode);
     OutputFile file(name);
     EXPECT_EQ(permissions_of(file.path()), 0600u);  // nobody reads it before it is complete
-    write(file, "new");
+    file.print("new");
     file.commit();
     EXPECT_EQ(permissions_of(name), mode);
     EXPECT_EQ(contents(name), "new");
@@ -135,7 +127,7 @@ TEST(output_file, replaces_what_a_link_points_to) {
   std::filesystem::create_symlink("target", folder.path() + "/link");
   {
     OutputFile file(folder.path() + "/link");
-    write(file, "new");
+    file.print("new");
     file.commit();
   }
   EXPECT_TRUE(std::filesystem::is_symlink(folder.path() + "/link"));
@@ -145,23 +137,19 @@ TEST(output_file, replaces_what_a_link_points_to) {
 TEST(output_file, leaves_nothing_after_a_signal) {
   const Folder folder;
   for (const int signal : {SIGTERM, SIGPIPE}) {
-    const pid_t child = fork();
-    if (child == 0) {
+    const auto write_half = [&] {
       OutputFile file(folder.path() + "/a"), beside(folder.path() + "/b");
-      write(file, "half");
+      file.print("half");
       raise(signal);
-      _exit(0);
-    }
-    int status = 0;
-    waitpid(child, &status, 0);
-    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal);
+    };
+    EXPECT_EXIT(write_half(), testing::KilledBySignal(signal), "");
     EXPECT_EQ(entries(folder.path()), 0u);
   }
 }
 
 TEST(output_file, writes_to_what_cannot_be_replaced) {
   OutputFile file("/dev/null");
-  write(file, "text");
+  file.print("text");
   file.commit();
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
 }
@@ -177,7 +165,7 @@ TEST(output_file, does_not_replace_a_link_to_an_open_file) {
   std::filesystem::create_symlink("/proc/self/fd/" + std::to_string(file), link);
   {
     OutputFile output(link);
-    write(output, "text");
+    output.print("text");
     output.commit();
   }
   EXPECT_TRUE(std::filesystem::is_symlink(link));
@@ -191,24 +179,19 @@ TEST(output_file, stands_on_stdout_behind_what_others_have_written) {
   const Folder folder;
   for (const char* const name : {"/dev/stdout", "/proc/self/fd/1", "-"}) {
     const std::string out = folder.path() + "/out";
-    std::fflush(stdout);
-    const pid_t child = fork();
-    if (child == 0) {
+    const auto write_in_between = [&] {
       dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
       std::printf("head\n");
       std::fflush(stdout);
-      {
-        OutputFile output(name);
-        write(output, "text\n");
-        output.commit();
-      }
+      OutputFile output(name);
+      output.print("text\n");
+      output.commit();
       std::printf("end\n");
       std::fflush(stdout);
       _exit(0);
-    }
-    int status = 0;
-    waitpid(child, &status, 0);
-    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    };
+    std::fflush(stdout);
+    EXPECT_EXIT(write_in_between(), testing::ExitedWithCode(0), "");
     EXPECT_EQ(contents(out), "head\ntext\nend\n") << name;
   }
 }
@@ -219,7 +202,7 @@ TEST(output_file, that_cannot_be_written_is_refused_by_name) {
   EXPECT_THROW(
       {
         OutputFile file("/dev/full");
-        write(file, "text");
+        file.print("text");
         file.commit();
       },
       std::runtime_error);

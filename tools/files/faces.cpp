@@ -1,6 +1,9 @@
+// What Faces alone tell: edges, centroids.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "base/parallel_for.h"
@@ -51,6 +54,32 @@ Point centroid(std::size_t corners, const PointAt& point) {
 }
 
 }  // namespace
+
+Edges edges_of(const Faces& faces) {
+  // The side of face f that begins at its corner[slot], between the corners `low` and `high`.
+  std::vector<std::tuple<std::int32_t, std::int32_t, std::size_t, std::size_t>> sides;
+  sides.reserve(faces.corner.size());
+  faces.for_each_corner([&](std::size_t f, std::size_t slot) {
+    const auto [low, high] = std::minmax(faces.corner[slot], faces.corner[faces.after(f, slot)]);
+    sides.emplace_back(low, high, slot, f);
+  });
+  std::sort(sides.begin(), sides.end());
+  Edges edges;
+  edges.of_faces.resize(faces.corner.size());
+  for (const auto& [low, high, slot, f] : sides) {
+    const std::size_t place = faces.corner[slot] == low ? 0 : 1;  // 0: the face is on the left
+    const std::size_t last = edges.nodes.size() - 2;
+    const bool is_known = !edges.nodes.empty() && edges.nodes[last] == low && edges.nodes[last + 1] == high &&
+                          edges.faces[last + place] < 0;
+    if (!is_known) {
+      edges.nodes.insert(edges.nodes.end(), {low, high});
+      edges.faces.insert(edges.faces.end(), {-1, -1});
+    }
+    edges.faces[edges.faces.size() - 2 + place] = static_cast<std::int32_t>(f + 1);
+    edges.of_faces[slot] = static_cast<std::int32_t>(edges.faces.size() / 2);
+  }
+  return edges;
+}
 
 void divide_half_turns(Faces& cells, const std::int32_t* beyond, const pstripack::Directions& nodes,
                        double cosine) {
