@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 #include <sstream>
-#include <stdexcept>
 
 #include "files/columns.h"
 #include "files/measures.h"

@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "files/measures.h"
 #include "files/text_file.h"
-#include "geometry/measures.h"
 #include "point_sets.h"
 
 namespace files {

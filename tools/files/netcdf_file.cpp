@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <stdexcept>
 
 #include "files/nearest.h"
 #include "files/text_file.h"

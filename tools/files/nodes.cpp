@@ -10,7 +10,6 @@
 #include <numeric>
 #include <optional>
 #include <sstream>
-#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -18,7 +17,6 @@
 #include "files/nearest.h"
 #include "files/text_file.h"
 #include "files/text_table.h"
-#include "numbers.h"
 #include "point_sets.h"
 
 namespace files {

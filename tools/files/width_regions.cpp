@@ -1,11 +1,8 @@
 #include "files/width_regions.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <stdexcept>
 
 #include "files/geojson.h"
 #include "files/measures.h"

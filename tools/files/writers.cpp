@@ -5,10 +5,10 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <stdexcept>
 #include <string_view>
 
 #include "files/map_rings.h"
+#include "files/text_file.h"
 
 namespace files {
 namespace {
@@ -18,9 +18,7 @@ bool ends_with(const std::string& text, const std::string& end) {
 }
 
 [[noreturn]] void refuse(OutputFile& file, Format format, const char* why) {
-  for (const FormatEntry& f : formats())
-    if (f.format == format) throw std::runtime_error(file.name() + ": " + f.name + " " + why);
-  throw std::logic_error("a format that is not in the table");
+  fail(file.name(), "{} {}", formats()[static_cast<std::size_t>(format)].name, why);
 }
 
 /// The corners of a face, counted from 0.
@@ -239,12 +237,12 @@ void print_row(OutputFile& out, const Columns& table, std::size_t i, const char*
 
 /// The header line has units in the form that text_table.h reads. A missing value is an empty cell.
 void write_csv(OutputFile& file, const Columns& table) {
-  for (std::size_t k = 0; k < table.size(); ++k) {
-    const Column& c = table[k];
+  std::vector<std::string> names;
+  for (const Column& c : table) {
     const bool has_units = !c.units.empty() && !ends_with(c.name, "_" + c.units) && c.units != "degrees";
-    file.print("{}{}", k == 0 ? "" : ",", csv_text(has_units ? c.name + " [" + c.units + "]" : c.name));
+    names.push_back(csv_text(has_units ? c.name + " [" + c.units + "]" : c.name));
   }
-  file.print("\n");
+  file.print("{}\n", fmt::join(names, ","));
   for (std::size_t i = 0; i < table[0].size(); ++i) {
     print_row(file, table, i, ",", csv_text, "", true);
     file.print("\n");
@@ -306,20 +304,13 @@ void write_geojson(OutputFile& file, const Faces& faces, const Notes& notes) {
 void write_gmt(OutputFile& file, const Faces& faces) {
   const Columns table = table_of(faces);
   const LonLat angles = angles_of(faces.points, faces.given_points, true);
-  file.print("# @VGMT1.0 @GPOLYGON @Je4326\n");
-  for (const bool types : {false, true}) {
-    file.print(types ? "# @T" : "# @N");
-    for (std::size_t k = 0; k < table.size(); ++k) {
-      const Column& c = table[k];
-      file.print("{}{}", k == 0 ? "" : "|",
-                 !types        ? plain_name(c.name)
-                 : c.is_text() ? "string"
-                 : c.whole     ? "integer"
-                               : "double");
-    }
-    file.print("\n");
+  std::vector<std::string> names, types;
+  for (const Column& c : table) {
+    names.push_back(plain_name(c.name));
+    types.emplace_back(c.is_text() ? "string" : c.whole ? "integer" : "double");
   }
-  file.print("# FEATURE_DATA\n");
+  file.print("# @VGMT1.0 @GPOLYGON @Je4326\n# @N{}\n# @T{}\n# FEATURE_DATA\n", fmt::join(names, "|"),
+             fmt::join(types, "|"));
   for (std::size_t f = 0; f < faces.size(); ++f) {
     file.print(">\n# @D");
     print_row(file, table, f, "|", gmt_text, "NaN");

@@ -38,7 +38,7 @@ struct FormatEntry {
   const char* what;
 };
 
-/// All formats, for --help and --to and for the choice by suffix.
+/// All formats, in the order of Format, for --help and --to and for the choice by suffix.
 const std::vector<FormatEntry>& formats();
 bool holds_a_mesh(Format format);
 bool holds_nodes(Format format);
