@@ -38,13 +38,15 @@ inline Real area(const Vector& a, const Vector& b, const Vector& c) {
   return 2 * atan2(dot(a, cross(b, c)), 1 + dot(a, b) + dot(b, c) + dot(c, a));
 }
 /// The Voronoi cell of v; the ring of its neighbours in the hull, counterclockwise. A side of a half turn is
-/// divided at the middle of the arc to the neighbour.
+/// divided where its circle meets the arc to the neighbour, or opposite, if the third of three nodes is
+/// nearer.
 inline Real cell(const Vector& v, const std::vector<Vector>& ring) {
   const auto corner = [&](std::size_t k) { return circumcentre(v, ring[k], ring[(k + 1) % ring.size()]); };
   Real sum = 0;
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const Vector from = corner(k), to = corner((k + 1) % ring.size());
-    const Vector middle = unit(v + ring[(k + 1) % ring.size()]);
+    Vector middle = unit(v + ring[(k + 1) % ring.size()]);
+    if (dot(v, cross(from, middle)) < 0) middle = Vector{0, 0, 0} - middle;
     sum += length(from + to) > Real(1e-3) ? area(v, from, to) : area(v, from, middle) + area(v, middle, to);
   }
   return sum;
