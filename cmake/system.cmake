@@ -19,13 +19,11 @@ else()
     #include <sys/mman.h>
     #include <sys/prctl.h>
     #include <sys/random.h>
-    #include <sys/signalfd.h>
     #include <sys/socket.h>
     ucred peer;
-    sigset_t none;
     int main() {
       return SO_PEERCRED + SOCK_SEQPACKET + memfd_create(\"\", MFD_CLOEXEC) + prctl(PR_SET_PDEATHSIG, 9) +
-             signalfd(-1, &none, SFD_CLOEXEC) + accept4(0, nullptr, nullptr, SOCK_CLOEXEC);
+             accept4(0, nullptr, nullptr, SOCK_CLOEXEC);
     }" PSTRIPACK_HAS_POOL)
   file(WRITE ${CMAKE_BINARY_DIR}/CMakeFiles/check.map "{ global: main; local: *; };\n")
   check_linker_flag(CXX LINKER:--version-script=${CMAKE_BINARY_DIR}/CMakeFiles/check.map PSTRIPACK_HAS_VERSION_SCRIPTS)
@@ -34,7 +32,7 @@ else()
 endif()
 option(PSTRIPACK_WITH_POOL "Serve unchanged serial programs by MPI ranks (pstripack-run)" ${PSTRIPACK_HAS_POOL})
 if(PSTRIPACK_WITH_POOL AND NOT PSTRIPACK_HAS_POOL)
-  message(FATAL_ERROR "PSTRIPACK_WITH_POOL: this system lacks signalfd, memfd_create, SO_PEERCRED, prctl or accept4, which "
+  message(FATAL_ERROR "PSTRIPACK_WITH_POOL: this system lacks memfd_create, SO_PEERCRED, prctl or accept4, which "
                       "the pool needs; configure with -DPSTRIPACK_WITH_POOL=OFF")
 endif()
 

@@ -2,32 +2,27 @@
 // MPI for a program that is nothing but a rank: the worker of the pool. Not for the libraries, which never
 // start MPI.
 
-#include <cstdlib>
+#include <exception>
 
 #include "mpi/mpi_communicator.h"
 
 namespace pstripack {
 
-/// All ranks of the job, over MPI_COMM_WORLD. At most one object per process.
-class World {
- public:
-  /// Initialises MPI. Collective.
-  World() {
-    int provided = 0;
-    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+/// Initialises MPI, calls body(ranks) for all ranks of the job and finalises MPI. What body() throws ends the
+/// job, with a line on stderr. Collective.
+template <class Body>
+void with_all_ranks(const Body& body) {
+  int provided = 0;
+  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+  {
+    MpiCommunicator ranks(MPI_COMM_WORLD);
+    try {
+      body(ranks);
+    } catch (const std::exception& error) {
+      ranks.abort("error", error.what());
+    }
   }
-  /// Finalises MPI. Collective.
-  ~World() { MPI_Finalize(); }
-  World(const World&) = delete;
-  World& operator=(const World&) = delete;
-
-  /// Collective.
-  MpiCommunicator communicator() const { return MpiCommunicator(MPI_COMM_WORLD); }
-  /// Ends the job.
-  [[noreturn]] void abort() const {
-    MPI_Abort(MPI_COMM_WORLD, 1);
-    std::abort();  // does not return either, but MPI's declaration does not say so
-  }
-};
+  MPI_Finalize();
+}
 
 }  // namespace pstripack

@@ -34,10 +34,19 @@ bool is_ours(const Descriptor& socket) {
   return getsockopt(socket.get(), SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 && peer.uid == geteuid();
 }
 
-/// Room for the descriptors of a packet. Only those that exist are sent; the first byte of the packet is a
-/// bit map of their places.
-struct Ancillary {
-  alignas(cmsghdr) char bytes[CMSG_SPACE(kMostDescriptors * sizeof(int))];
+/// A message of these bytes, with room for one descriptor.
+struct Message {
+  iovec part;
+  alignas(cmsghdr) char descriptor[CMSG_SPACE(sizeof(int))]{};
+  msghdr header{};
+
+  Message(void* bytes, std::size_t size) : part{bytes, size} {
+    header.msg_iov = &part;
+    header.msg_iovlen = 1;
+    header.msg_control = descriptor;
+    header.msg_controllen = sizeof descriptor;
+  }
+  Message(const Message&) = delete;
 };
 
 }  // namespace
@@ -71,65 +80,37 @@ Descriptor accept_from(const Descriptor& listener) {
   return socket && is_ours(socket) ? std::move(socket) : Descriptor();
 }
 
-bool send_packet(const Descriptor& to, const void* bytes, std::size_t size, const int* descriptors,
-                 int count) {
-  unsigned char places = 0;
-  int fds[kMostDescriptors];
-  int used = 0;
-  for (int i = 0; i < count; ++i)
-    if (descriptors[i] >= 0) {
-      places = static_cast<unsigned char>(places | 1 << i);
-      fds[used++] = descriptors[i];
-    }
-  iovec parts[] = {{&places, 1}, {const_cast<void*>(bytes), size}};
-  Ancillary ancillary{};
-  msghdr message{};
-  message.msg_iov = parts;
-  message.msg_iovlen = 2;
-  if (used > 0) {
-    message.msg_control = ancillary.bytes;
-    message.msg_controllen = CMSG_SPACE(static_cast<std::size_t>(used) * sizeof(int));
-    cmsghdr* const header = CMSG_FIRSTHDR(&message);
+bool send_packet(const Descriptor& to, const void* bytes, std::size_t size, int descriptor) {
+  Message message(const_cast<void*>(bytes), size);
+  if (descriptor >= 0) {
+    cmsghdr* const header = CMSG_FIRSTHDR(&message.header);
     header->cmsg_level = SOL_SOCKET;
     header->cmsg_type = SCM_RIGHTS;
-    header->cmsg_len = CMSG_LEN(static_cast<std::size_t>(used) * sizeof(int));
-    memcpy(CMSG_DATA(header), fds, static_cast<std::size_t>(used) * sizeof(int));
+    header->cmsg_len = CMSG_LEN(sizeof descriptor);
+    memcpy(CMSG_DATA(header), &descriptor, sizeof descriptor);
+  } else {
+    message.header.msg_controllen = 0;
   }
-  for (;;) {
-    const ssize_t sent = sendmsg(to.get(), &message, MSG_NOSIGNAL);
-    if (sent >= 0) return true;
-    if (errno != EINTR) return false;
-  }
+  ssize_t sent = -1;
+  do sent = sendmsg(to.get(), &message.header, MSG_NOSIGNAL);
+  while (sent < 0 && errno == EINTR);
+  return sent >= 0;
 }
 
-bool receive_packet(const Descriptor& from, void* bytes, std::size_t size, Descriptor* descriptors,
-                    int count) {
-  unsigned char places = 0;
-  iovec parts[] = {{&places, 1}, {bytes, size}};
-  Ancillary ancillary{};
-  msghdr message{};
-  message.msg_iov = parts;
-  message.msg_iovlen = 2;
-  message.msg_control = ancillary.bytes;
-  message.msg_controllen = sizeof ancillary.bytes;
+bool receive_packet(const Descriptor& from, void* bytes, std::size_t size, Descriptor* descriptor) {
+  Message message(bytes, size);
   ssize_t received = -1;
-  do received = recvmsg(from.get(), &message, MSG_CMSG_CLOEXEC);
+  do received = recvmsg(from.get(), &message.header, MSG_CMSG_CLOEXEC | MSG_TRUNC);
   while (received < 0 && errno == EINTR);
-
-  int fds[kMostDescriptors];
-  int used = 0;
-  if (received >= 0)
-    if (const cmsghdr* const header = CMSG_FIRSTHDR(&message);
-        header != nullptr && header->cmsg_level == SOL_SOCKET && header->cmsg_type == SCM_RIGHTS) {
-      used = static_cast<int>((header->cmsg_len - CMSG_LEN(0)) / sizeof(int));
-      memcpy(fds, CMSG_DATA(header), static_cast<std::size_t>(used) * sizeof(int));
-    }
-  for (int i = 0, next = 0; i < kMostDescriptors; ++i) {
-    const bool carried = (places >> i & 1) != 0 && next < used;
-    Descriptor descriptor(carried ? fds[next++] : -1);
-    if (i < count) descriptors[i] = std::move(descriptor);
+  Descriptor carried;
+  if (const cmsghdr* const header = CMSG_FIRSTHDR(&message.header);
+      received >= 0 && header != nullptr && header->cmsg_type == SCM_RIGHTS) {
+    int file;
+    memcpy(&file, CMSG_DATA(header), sizeof file);
+    carried.reset(file);
   }
-  return received == static_cast<ssize_t>(size) + 1;
+  if (descriptor != nullptr) *descriptor = std::move(carried);
+  return received == static_cast<ssize_t>(size);
 }
 
 }  // namespace pstripack

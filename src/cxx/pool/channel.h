@@ -1,6 +1,6 @@
 #pragma once
-// Local sockets between processes of one user on one machine. They preserve packet boundaries and can carry
-// file descriptors. Their names are in Linux's abstract name space, so no files are left behind.
+// Local sockets between processes of one user on one machine. They preserve packet boundaries, and a packet
+// can carry a file descriptor. Their names are in Linux's abstract name space, so no files are left behind.
 
 #include <cstddef>
 #include <string>
@@ -20,15 +20,11 @@ Descriptor connect_to(const char* name);
 /// Accepts the next connection. None on failure, or if the other side belongs to another user.
 Descriptor accept_from(const Descriptor& listener);
 
-/// Sends one packet, with `count` <= kMostDescriptors descriptors (-1: no descriptor in this place). False
-/// if the other side is gone. Raises no signal.
-constexpr int kMostDescriptors = 4;
-bool send_packet(const Descriptor& to, const void* bytes, std::size_t size, const int* descriptors = nullptr,
-                 int count = 0);
+/// Sends one packet, with a descriptor unless that is -1. False if the other side is gone. Raises no signal.
+bool send_packet(const Descriptor& to, const void* bytes, std::size_t size, int descriptor = -1);
 
 /// Waits for one packet of exactly `size` bytes. False if the other side is gone or sent something else.
-/// descriptors[0..count-1] become the descriptors received; none in places without one.
-bool receive_packet(const Descriptor& from, void* bytes, std::size_t size, Descriptor* descriptors = nullptr,
-                    int count = 0);
+/// *descriptor becomes the descriptor received; none if there is none.
+bool receive_packet(const Descriptor& from, void* bytes, std::size_t size, Descriptor* descriptor = nullptr);
 
 }  // namespace pstripack

@@ -133,7 +133,7 @@ class Pool final : public Engine {
     request.n = call.n;
     request.wants_cost = wants_cost ? 1 : 0;
     PoolReply reply;
-    if (!send_packet(socket_, &request, sizeof request, &new_area, 1) ||
+    if (!send_packet(socket_, &request, sizeof request, new_area) ||
         !receive_packet(socket_, &reply, sizeof reply) || !fits(reply, call.n)) {
       // The pool has ended, or the model has closed the descriptor. Do not close it: it may be another
       // file's.

@@ -1,7 +1,5 @@
 #pragma once
-// The packets (channel.h) between a model, rank 0 of its pool and pstripack-run.
-
-#include <signal.h>
+// The packets (channel.h) between a model and rank 0 of its pool.
 
 #include <cstdint>
 #include <type_traits>
@@ -29,28 +27,5 @@ struct PoolReply {
 
 // Packets are sent as they stand in memory.
 static_assert(std::is_trivially_copyable_v<PoolRequest> && std::is_trivially_copyable_v<PoolReply>);
-
-// Between pstripack-run and the keeper (keeper.h).
-
-/// The first packet from pstripack-run, with the model's stdin, stdout, stderr and environment.
-struct Greeting {
-  std::uint64_t ignored = 0;  ///< bit S-1: the model shall find signal S ignored
-
-  bool ignores(int signal) const { return (ignored >> (signal - 1) & 1) != 0; }
-  bool tells_to_end(int signal) const {
-    return (signal == SIGTERM || signal == SIGINT || signal == SIGHUP || signal == SIGQUIT) &&
-           !ignores(signal);
-  }
-};
-
-/// A signal for the model and the processes that it has started. SIGKILL: it must end now.
-struct SignalForModel {
-  std::int32_t number = 0;
-};
-
-/// From the keeper.
-struct ModelEnd {
-  std::int32_t status = 0;  ///< as returned by wait()
-};
 
 }  // namespace pstripack

@@ -1,19 +1,13 @@
 #include "pool/steward.h"
 
 #include <poll.h>
-#include <signal.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <utility>
 
-#include "base/environment.h"
 #include "pool/area_layout.h"
-#include "pool/keeper.h"
 #include "pool/messages.h"
 
 namespace pstripack {
@@ -68,34 +62,17 @@ std::vector<Descriptor> connect_ranks(MpiCommunicator& ranks) {
 
 }  // namespace
 
-Steward::Steward(char** command) {
-  Launcher launcher;
-  if (const char* const name = environment_variable("PSTRIPACK_POOL_LAUNCHER")) {
-    launcher.socket = connect_to(name);
-    if (launcher.socket &&
-        !receive_packet(launcher.socket, &launcher.greeting, sizeof launcher.greeting, launcher.files, 4))
-      launcher.socket.reset();
-  }
-  has_launcher_ = static_cast<bool>(launcher.socket);
-  std::string name;
-  listener_ = listen_under_new_name(&name);
-  if (!listener_) std::perror("pstripack: pool: no socket, trmesh runs on threads");
-  keeper_ = start_keeper(command, name, std::move(launcher), listener_);
-  if (keeper_) return;
-  std::perror("pstripack-worker: no process for the model");
-  std::exit(126);
+bool Steward::connect(const char* pool) {
+  char nothing;
+  supervisor_ = connect_to(pool);
+  return supervisor_ && receive_packet(supervisor_, &nothing, 1, &listener_) && listener_;
 }
 
-void Steward::pass_on(int number) {
-  const SignalForModel signal{number};
-  if (!has_launcher_) send_packet(keeper_, &signal, sizeof signal);
-}
-
-int Steward::serve(MpiCommunicator& ranks) {
+void Steward::serve(MpiCommunicator& ranks) {
   sockets_ = connect_ranks(ranks);
   std::vector<pollfd> events;
   for (;;) {
-    events = {{keeper_.get(), POLLIN, 0}, {listener_.get(), POLLIN, 0}};
+    events = {{supervisor_.get(), POLLIN, 0}, {listener_.get(), POLLIN, 0}};
     for (const Client& client : clients_) events.push_back({client.socket.get(), POLLIN, 0});
     if (poll(events.data(), events.size(), -1) < 0) continue;
     if (events[0].revents != 0) break;
@@ -105,28 +82,22 @@ int Steward::serve(MpiCommunicator& ranks) {
     if (events[1].revents != 0)
       if (Descriptor socket = accept_from(listener_)) clients_.push_back({std::move(socket), {}});
   }
-  ModelEnd end;
-  const bool is_known = receive_packet(keeper_, &end, sizeof end);
-  if (!is_known) end.status = SIGKILL;  // as the keeper
   clients_.clear();
   Order end_of_pool;
   ranks.broadcast(&end_of_pool, sizeof end_of_pool, 0);
-  if (has_launcher_ && is_known) return 0;
-  return WIFEXITED(end.status) ? WEXITSTATUS(end.status) : 128 + WTERMSIG(end.status);
 }
 
 /// A rank that cannot get it finds the socket closed.
 void Steward::send_to_workers(const Descriptor& file) {
-  const int descriptor = file.get();
   const char nothing = 0;
   for (Descriptor& socket : sockets_)
-    if (!send_packet(socket, &nothing, 1, &descriptor, 1)) socket.reset();
+    if (!send_packet(socket, &nothing, 1, file.get())) socket.reset();
 }
 
 bool Steward::serve(Client& client, MpiCommunicator& ranks) {
   PoolRequest request;
   Descriptor new_area;
-  if (!receive_packet(client.socket, &request, sizeof request, &new_area, 1)) return false;
+  if (!receive_packet(client.socket, &request, sizeof request, &new_area)) return false;
   if (new_area) {
     client.area = SharedArea();
     client.area = SharedArea::map(std::move(new_area));
@@ -169,7 +140,7 @@ void serve_as_worker(MpiCommunicator& ranks) {
     area_number = order.area;
     if (Descriptor file; order.sends_area != 0 && !sockets.empty()) {
       char nothing = 0;
-      receive_packet(sockets[0], &nothing, 1, &file, 1);
+      receive_packet(sockets[0], &nothing, 1, &file);
       area = SharedArea::map(std::move(file));
       area.close_file();
     }

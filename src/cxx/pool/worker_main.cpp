@@ -1,29 +1,22 @@
-// pstripack-worker: a rank of the pool. pstripack-run starts it through mpirun. All ranks get the model's
-// command line; rank 0 starts the model.
+// pstripack-worker: a rank of the pool. pstripack-run starts it through mpirun.
 
 #include <signal.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <thread>
 
 #include "base/environment.h"
+#include "mpi/world.h"
 #include "pool/steward.h"
 
 namespace {
-
-pstripack::Steward* steward = nullptr;  ///< on rank 0
 
 /// Ends this process if the launcher (mpirun or its daemon) is gone, which may have been killed.
 void end_with(pid_t launcher) {
   while (getppid() == launcher) sleep(1);
   kill(getpid(), SIGKILL);
-}
-
-void pass_on(int signal) {
-  if (steward != nullptr) steward->pass_on(signal);
 }
 
 /// The rank, known before MPI is initialised; -1 if this is no rank.
@@ -35,32 +28,29 @@ int rank_from_environment() {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main() {
   const int rank = rank_from_environment();
-  if (argc < 2 || rank < 0) {
+  const char* const pool = pstripack::environment_variable("PSTRIPACK_POOL");
+  if (pool == nullptr || rank < 0) {
     std::fputs("pstripack-worker: only pstripack-run starts this program; see pstripack-run --help\n",
                stderr);
     return 2;
   }
-  if (rank == 0) steward = new pstripack::Steward(argv + 1);
-  std::thread(end_with, getppid()).detach();
-  // mpirun forwards these signals to all processes; they are meant for the model.
-  signal(SIGUSR1, pass_on);
-  signal(SIGUSR2, pass_on);
-
-  int code = 0;
-  {
-    const pstripack::World world;
-    try {
-      pstripack::MpiCommunicator ranks = world.communicator();
-      if (rank == 0)
-        code = steward->serve(ranks);
-      else
-        pstripack::serve_as_worker(ranks);
-    } catch (const std::exception& error) {
-      std::fprintf(stderr, "pstripack: rank %d: %s\n", rank, error.what());
-      world.abort();
-    }
+  pstripack::Steward steward;
+  if (rank == 0 && !steward.connect(pool)) {
+    std::fputs("pstripack-worker: rank 0 is not on the machine of pstripack-run: start that there\n", stderr);
+    return 1;
   }
-  return code;
+  std::thread(end_with, getppid()).detach();
+  // mpirun forwards these signals to all processes; they are meant for the program.
+  signal(SIGUSR1, SIG_IGN);
+  signal(SIGUSR2, SIG_IGN);
+
+  pstripack::with_all_ranks([&](pstripack::MpiCommunicator& ranks) {
+    if (rank == 0)
+      steward.serve(ranks);
+    else
+      pstripack::serve_as_worker(ranks);
+  });
+  return 0;
 }
