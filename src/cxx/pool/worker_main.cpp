@@ -1,23 +1,16 @@
 // pstripack-worker: a rank of the pool. pstripack-run starts it through mpirun.
 
 #include <signal.h>
-#include <unistd.h>
+#include <sys/prctl.h>
 
 #include <cstdio>
 #include <cstdlib>
-#include <thread>
 
 #include "base/environment.h"
 #include "mpi/world.h"
 #include "pool/steward.h"
 
 namespace {
-
-/// Ends this process if the launcher (mpirun or its daemon) is gone, which may have been killed.
-void end_with(pid_t launcher) {
-  while (getppid() == launcher) sleep(1);
-  kill(getpid(), SIGKILL);
-}
 
 /// The rank, known before MPI is initialised; -1 if this is no rank.
 int rank_from_environment() {
@@ -41,7 +34,7 @@ int main() {
     std::fputs("pstripack-worker: rank 0 is not on the machine of pstripack-run: start that there\n", stderr);
     return 1;
   }
-  std::thread(end_with, getppid()).detach();
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // where mpirun or its daemon was killed
   // mpirun forwards these signals to all processes; they are meant for the program.
   signal(SIGUSR1, SIG_IGN);
   signal(SIGUSR2, SIG_IGN);
