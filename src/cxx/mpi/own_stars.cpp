@@ -161,17 +161,12 @@ void OwnStars::local_stars(std::int64_t* begin, std::int32_t* neighbour) const {
   begin[0] = 0;
   for_each_ring([&](std::size_t i, const auto& ring) {
     begin[i + 1] = begin[i] + ring.count;
-    std::int32_t* const out = neighbour + begin[i];
+    const std::uint32_t first = first_of(ring);
     for (std::uint32_t k = 0; k < ring.count; ++k) {
-      const auto entry = ring.begin[k];
+      const auto entry = ring.begin[(first + k) % ring.count];
       const auto place = static_cast<std::int32_t>(index(std::abs(std::int64_t{entry}))) + 1;
-      out[k] = entry < 0 ? -place : place;
+      neighbour[begin[i] + k] = entry < 0 ? -place : place;
     }
-    if (out[ring.count - 1] < 0) return;
-    std::int32_t* const first = std::min_element(out, out + ring.count, [&](std::int32_t a, std::int32_t b) {
-      return number(static_cast<std::size_t>(a) - 1) < number(static_cast<std::size_t>(b) - 1);
-    });
-    std::rotate(out, first, out + ring.count);
   });
 }
 

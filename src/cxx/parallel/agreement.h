@@ -54,17 +54,6 @@ struct LargestReal {
   }
 };
 
-/// Of numbers that are not negative.
-struct SmallestReal {
-  double value = std::numeric_limits<double>::infinity();
-  std::int64_t encode() const {
-    std::int64_t bits;
-    std::memcpy(&bits, &value, sizeof bits);
-    return bits;
-  }
-  void decode(std::int64_t least) { std::memcpy(&value, &least, sizeof value); }
-};
-
 /// The value of rank 0.
 template <class Value>
 struct OfRank0 {

@@ -49,44 +49,13 @@ std::size_t most_lacking(const Patches<Int>& patches, const ParallelOptions& opt
 
 // ---- lists ------------------------------------------------------------------------------------------
 
-/// The lists of all patches here: for each list a head {from, to, count}, then its triangles.
+/// The lists of all patches here.
 template <class Int>
 Parcels packed_lists(const Patches<Int>& patches, const PatchRanges& of_ranks) {
-  ParcelWriter writer(of_ranks.ranks());
-  const auto for_each_list = [&](const Patch<Int>& patch, const auto& visit) {
-    const std::vector<std::size_t>& counts = patch.list_counts();
-    for (std::size_t q = 0; q < counts.size(); ++q)
-      if (counts[q] > 0) visit(q, of_ranks.rank_of(static_cast<PatchNumber>(q)), counts[q]);
-  };
+  std::vector<std::vector<SentTriangle<Int>>> to_rank(of_ranks.ranks());
   for (const Patch<Int>& patch : patches.of_rank)
-    for_each_list(patch, [&](std::size_t, RankNumber r, std::size_t count) {
-      writer.expect<Listed<Int>>(r, 1 + count);
-    });
-  writer.make_room();
-  std::vector<Listed<Int>*> next(static_cast<std::size_t>(of_ranks.count()));
-  for (const Patch<Int>& patch : patches.of_rank) {
-    for_each_list(patch, [&](std::size_t q, RankNumber r, std::size_t count) {
-      next[q] = writer.room<Listed<Int>>(r, 1 + count);
-      *next[q]++ = {patch.id(), static_cast<Int>(q), static_cast<Int>(count)};
-    });
-    patch.for_each_listed(
-        [&](PatchNumber q, const Listed<Int>& triangle) { *next[static_cast<std::size_t>(q)]++ = triangle; });
-  }
-  return writer.finish();
-}
-
-/// The lists that have come for each patch here.
-template <class Int>
-std::vector<std::vector<ListOfOther<Int>>> sorted_lists(const Parcels& lists, const Patches<Int>& patches) {
-  std::vector<std::vector<ListOfOther<Int>>> of_patch(patches.of_rank.size());
-  const Items<Listed<Int>> items(lists);
-  for (const Listed<Int>* head = items.begin(); head < items.end();) {
-    const auto count = static_cast<std::size_t>((*head)[2]);
-    of_patch[static_cast<PatchHere>((*head)[1] - patches.of_rank[0].id())].push_back(
-        {static_cast<PatchNumber>((*head)[0]), head + 1, count});
-    head += 1 + count;
-  }
-  return of_patch;
+    patch.for_each_listed([&](const SentTriangle<Int>& t) { to_rank[of_ranks.rank_of(t.to)].push_back(t); });
+  return packed(to_rank);
 }
 
 // ---- questions and answers --------------------------------------------------------------------------
@@ -157,10 +126,10 @@ Certified<Int> certify(Patches<Int> patches, const Division& division, Communica
         ranks,
         [&] {
           questions.resize(division.patches.ranks());
-          const auto of_others = sorted_lists(lists, patches);
+          const Items<SentTriangle<Int>> of_others(lists);
           std::vector<std::vector<Question>> of_patch(patches.of_rank.size());
-          patches.for_each(
-              threads, [&](Patch<Int>& patch, PatchHere k) { of_patch[k] = patch.lacking(of_others[k]); });
+          patches.for_each(threads,
+                           [&](Patch<Int>& patch, PatchHere k) { of_patch[k] = patch.lacking(of_others); });
           std::size_t count = 0;
           for (const std::vector<Question>& some : of_patch) {
             for (const Question& q : some) questions[division.patches.rank_of(q.to)].push_back(q);

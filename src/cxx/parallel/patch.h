@@ -12,6 +12,7 @@
 #include "base/workspace.h"
 #include "parallel/local_numbers.h"
 #include "parallel/number_table.h"
+#include "parallel/parcels.h"
 #include "parallel/partition.h"
 #include "parallel/patch_hull.h"
 #include "parallel/places.h"
@@ -23,12 +24,11 @@ namespace pstripack {
 template <class Int>
 using Listed = std::array<Int, 3>;
 
-/// The list that another patch has sent.
+/// A triangle in the list of a patch for another one.
 template <class Int>
-struct ListOfOther {
-  PatchNumber from;
-  const Listed<Int>* first;
-  std::size_t count;
+struct SentTriangle {
+  Listed<Int> triangle;
+  PatchNumber from, to;
 };
 
 /// "You lack this triangle. Does any of your nodes lie above it?"
@@ -115,7 +115,6 @@ class Patch {
     const std::size_t first_new = listed_;
     listed_ = known();
     if (first_new == listed_ || partition_->patches() == 1) return;
-    counts_.assign(static_cast<std::size_t>(partition_->patches()), 0);
     // A face that is new since the last time has a new node.
     entries_.erase(std::remove_if(entries_.begin(), entries_.end(),
                                   [&](const Entry& e) {
@@ -140,26 +139,25 @@ class Patch {
       hull_.for_each_face_at_border(0, [&](HullFace t) { faces += hull_.is_front(t); });
       return faces == entries_.size();
     }());
-    for_each_listed([&](PatchNumber q, const Listed<Int>&) { ++counts_[static_cast<std::size_t>(q)]; });
   }
-  /// The number of triangles in the list for each patch; empty if this patch has none.
-  const std::vector<std::size_t>& list_counts() const { return counts_; }
-  /// Calls visit(q, triangle) for each triangle of the list for each patch q.
+  /// Calls visit(triangle) for each triangle of the lists for other patches.
   template <class Visit>
   void for_each_listed(const Visit& visit) const {
     for (const Entry& e : entries_)
       for (const PatchNumber q : e.other)
-        if (q != kNone) visit(q, e.triangle);
+        if (q != kNone) visit(SentTriangle<Int>{e.triangle, id_, q});
   }
-  /// Compares the lists with those that the other patches have sent. Returns the triangles that these lack,
+  /// Compares the lists with those that have come from other patches. Returns the triangles that these lack,
   /// as questions to them. Throws std::bad_alloc.
-  std::vector<Question> lacking(const std::vector<ListOfOther<Int>>& lists) const {
+  std::vector<Question> lacking(const Items<SentTriangle<Int>>& lists) const {
     Table<Listed<Int>, std::uint32_t> place(entries_.size());
     for (std::uint32_t e = 0; e < entries_.size(); ++e) place.insert(entries_[e].triangle, e);
     std::vector<std::array<bool, 2>> has(entries_.size());  // the other patch has the triangle
-    for (const ListOfOther<Int>& list : lists)
-      for (const Listed<Int>* t = list.first; t < list.first + list.count; ++t)
-        if (const std::uint32_t* const e = place.find(*t)) has[*e][entries_[*e].other[1] == list.from] = true;
+    for (const SentTriangle<Int>& t : lists) {
+      if (t.to != id_) continue;
+      if (const std::uint32_t* const e = place.find(t.triangle))
+        has[*e][entries_[*e].other[1] == t.from] = true;
+    }
     std::vector<Question> questions;
     for (std::size_t e = 0; e < entries_.size(); ++e)
       for (std::size_t k = 0; k < 2; ++k) {
@@ -277,7 +275,6 @@ class Patch {
   PatchNodes nodes_;
   PatchHull<Int> hull_;
   std::vector<Entry> entries_;
-  std::vector<std::size_t> counts_;
   std::size_t listed_ = 0;  ///< known() when the lists were made
   Hull finished_;
 };

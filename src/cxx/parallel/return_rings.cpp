@@ -108,9 +108,7 @@ void enter_received(const Parcels& received, const RingAddresses& addresses, con
     for (std::size_t k = addresses.begin[static_cast<std::size_t>(patches.first(r))];
          k < addresses.begin[static_cast<std::size_t>(patches.end(r))]; ++k) {
       table.entries().set(k, at);
-      const Int* const end = at + 1 + *at;
-      if (outside != nullptr) std::for_each(at + 1, end, [=](Int entry) { outside->add(entry); });
-      at = end;
+      at = outside != nullptr ? outside->add_ring(at) : at + 1 + *at;
     }
     assert(at == Items<Int>(received, r).end());
   }
