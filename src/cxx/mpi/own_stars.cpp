@@ -58,7 +58,7 @@ OwnStars::Checked OwnStars::check(Communicator& ranks) const {
     }
   };
   Checked found;
-  StarSums mine{static_cast<std::int64_t>(count())};
+  std::int64_t neighbours = 0, boundary = 0;
   std::vector<std::uint64_t> balance;
   const Parcels claimed = exchange_in_agreement(ranks, [&] {
     balance.resize(count());
@@ -78,8 +78,8 @@ OwnStars::Checked OwnStars::check(Communicator& ranks) const {
       }
       const std::int64_t a = first_ + static_cast<std::int64_t>(i);
       const bool is_boundary = ring.begin[ring.count - 1] < 0;
-      mine.neighbours += ring.count;
-      mine.boundary += is_boundary;
+      neighbours += ring.count;
+      boundary += is_boundary;
       for (std::uint32_t k = is_boundary ? 1 : 0; k < ring.count; ++k) {
         const std::int64_t b = ring.begin[(k + ring.count - 1) % ring.count],
                            c = std::abs(std::int64_t{ring.begin[k]});
@@ -101,15 +101,17 @@ OwnStars::Checked OwnStars::check(Communicator& ranks) const {
     hashes += hash_of_triangle(index(a), index(b), index(c));
   });
   // Halves, so that no sum is too large.
-  std::int64_t sums[] = {mine.nodes,
-                         mine.neighbours,
-                         mine.boundary,
+  std::int64_t sums[] = {static_cast<std::int64_t>(count()),
+                         neighbours,
+                         boundary,
                          triangles(),
                          static_cast<std::int64_t>(hashes & UINT32_MAX),
                          static_cast<std::int64_t>(hashes >> 32)};
   ranks.all_sum(sums, std::size(sums));
   const auto sum = [&](std::size_t k) { return static_cast<std::uint64_t>(sums[k]); };
-  found.is_sphere_or_disc = StarSums{sums[0], sums[1], sums[2]}.are_of_sphere_or_disc();
+  // Euler's formula. V nodes, F triangles and B boundary arcs of a sphere (B = 0) or a disc have
+  // V - (F + B)/2 = 2 or 1. A star has as many triangles as neighbours; at the boundary, one less.
+  found.is_sphere_or_disc = 6 * sums[0] - sums[1] - 2 * sums[2] == (sums[2] > 0 ? 6 : 12);
   found.fingerprint = fingerprint_of(sum(4) + (sum(5) << 32), sum(3));
   return found;
 }

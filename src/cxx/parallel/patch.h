@@ -181,24 +181,16 @@ class Patch {
   /// there is not enough.
   void* room_for_rings(std::size_t bytes) const { return hull_.room_for_rings(bytes); }
 
-  /// Gives back the pages of what is not needed after finish(), or after the last ring and boundary_nodes().
+  /// Gives back the pages of what is not needed after finish(), or after the last ring.
   void give_back_planes() const { hull_.give_back_planes(); }
   void give_back_hull() const { hull_.give_back_hull(); }
 
   /// Writes the rings of its own nodes to `out`, which has room for all and 2*kBlock entries more; calls
   /// visit(i, place, count) for each: the ring of its node i lies at `place`; soon(i) some time before.
-  /// Returns the end.
   template <class Visit, class Soon>
-  Int* write_rings(Int* out, const Visit& visit, const Soon& soon) const {
-    return hull_.write_rings(finished_, out, visit, soon);
+  void write_rings(Int* out, const Visit& visit, const Soon& soon) const {
+    hull_.write_rings(finished_, out, visit, soon);
   }
-  /// After finish(): the number of its own nodes at the boundary.
-  std::int64_t boundary_nodes() const {
-    std::int64_t nodes = 0;
-    for (HullNode v = 0; v < hull_.built(); ++v) nodes += !finished_.inner(v) && hull_.is_own(v);
-    return nodes;
-  }
-
   PatchNumber id() const { return id_; }
   std::size_t own() const { return nodes_.own; }
   std::size_t known() const { return nodes_.own > 0 ? hull_.growing().node_count() : 0; }

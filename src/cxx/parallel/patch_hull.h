@@ -161,9 +161,9 @@ class PatchHull {
 
   /// Writes the rings of the own nodes, as `finished` has them, to `out`: see Patch::write_rings.
   template <class Visit, class Soon>
-  Int* write_rings(const Hull& finished, Int* out, const Visit& visit, const Soon& soon) const {
+  void write_rings(const Hull& finished, Int* out, const Visit& visit, const Soon& soon) const {
     // By value: where visit() writes bytes, they could change anything that is reached through `this`.
-    return append_rings(
+    append_rings(
         finished, 0, built_, [order = order_, own = own_](std::size_t v) { return order[v] < own; },
         Numbers<Int, 0>{number_}, [order = order_, soon](std::size_t v) { soon(order[v]); }, out,
         [order = order_, visit](std::size_t v, const Int* place, std::uint32_t count) {

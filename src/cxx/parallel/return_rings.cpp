@@ -1,7 +1,6 @@
 #include "parallel/return_rings.h"
 
 #include <cassert>
-#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -12,11 +11,10 @@ namespace {
 /// given, into memory of their own. Then the stars can stay when the hulls are freed. `outside`: what the
 /// rings of this rank's nodes name is added.
 template <class Int>
-StarSums write_rings(Patches<Int>& patches, const RingAddresses& addresses, RankNumber me, int threads,
-                     Stars<Int>& stars, NamedOutside<Int>* outside) {
+void write_rings(Patches<Int>& patches, const RingAddresses& addresses, RankNumber me, int threads,
+                 Stars<Int>& stars, NamedOutside<Int>* outside) {
   struct Part {
     Block memory;
-    StarSums sums;
     std::optional<NamedOutside<Int>> outside;
   };
   std::vector<Part> parts(patches.of_rank.size());
@@ -34,35 +32,20 @@ StarSums write_rings(Patches<Int>& patches, const RingAddresses& addresses, Rank
     const std::size_t begin = addresses.begin[static_cast<std::size_t>(patch.id())],
                       first = addresses.own_from[k][me], count = addresses.own_from[k][me + 1] - first;
     const auto soon = [=](std::size_t i) { __builtin_prefetch(entries.place + begin + i, 1); };
-    const auto set = [=](std::size_t i, const Int* ring, std::uint32_t n) {
-      entries.set(begin + i, ring, n);
-    };
-    const Int* end;
-    if (outside == nullptr) {
-      end = patch.write_rings(out, set, soon);
-    } else {
-      NamedOutside<Int>* const names = &part.outside.emplace(*outside);
-      end = patch.write_rings(
-          out,
-          [=](std::size_t i, const Int* ring, std::uint32_t n) {
-            set(i, ring, n);
-            if (i - first < count) names->add_ring(ring);
-          },
-          soon);
-    }
-    const auto own = static_cast<std::int64_t>(patch.own());
-    part.sums = {own, end - out - own, patch.boundary_nodes()};
+    NamedOutside<Int>* const names = outside != nullptr ? &part.outside.emplace(*outside) : nullptr;
+    patch.write_rings(
+        out,
+        [=](std::size_t i, const Int* ring, std::uint32_t n) {
+          entries.set(begin + i, ring, n);
+          if (names != nullptr && i - first < count) names->add_ring(ring);
+        },
+        soon);
     if (patches.memory.gives_back_pages()) patch.give_back_hull();
   });
-  StarSums sum;
   for (Part& part : parts) {
-    sum.nodes += part.sums.nodes;
-    sum.neighbours += part.sums.neighbours;
-    sum.boundary += part.sums.boundary;
     if (outside != nullptr) outside->add(*part.outside);
     stars.memory.push_back(std::move(part.memory));
   }
-  return sum;
 }
 
 /// For each rank the rings of the nodes that it brought, patch by patch.
@@ -114,19 +97,6 @@ void enter_received(const Parcels& received, const RingAddresses& addresses, con
   }
 }
 
-/// A test of the program: patches that agree have the stars of all nodes, whose surface is a sphere or a
-/// disc. Throws PatchesDoNotPay if not: then one rank triangulates all. Collective.
-void check_euler(StarSums sums, const Division& division, Communicator& ranks) {
-  if (division.patches.count() == 1) return;
-  std::int64_t all[] = {sums.nodes, sums.neighbours, sums.boundary};
-  ranks.all_sum(all, std::size(all));
-  sums = {all[0], all[1], all[2]};
-  const bool is_right =
-      sums.nodes == static_cast<std::int64_t>(division.nodes) && sums.are_of_sphere_or_disc();
-  assert(is_right);
-  if (!is_right) throw PatchesDoNotPay{};  // a bug in our own program
-}
-
 }  // namespace
 
 template <class Int>
@@ -134,16 +104,14 @@ Stars<Int> return_rings(Patches<Int> patches, RingAddresses addresses, const Loc
                         const Division& division, Communicator& ranks, const ParallelOptions& options) {
   const auto me = static_cast<RankNumber>(ranks.rank());
   Stars<Int> stars;
-  StarSums sums;
   NamedOutside<Int> named(nodes.number(0), nodes.count);
   NamedOutside<Int>* const outside = options.with_neighbours ? &named : nullptr;
   Parcels received = exchange_in_agreement(ranks, [&] {
     stars.memory.reserve(patches.of_rank.size() + 2);  // what is moved there below must not fail
     stars.of_node = RingTable<Int>(std::move(addresses.position), addresses.begin.back());
-    sums = write_rings(patches, addresses, me, options.threads, stars, outside);
+    write_rings(patches, addresses, me, options.threads, stars, outside);
     return rings_for_others(stars.of_node, addresses, division.patches, me);
   });
-  check_euler(sums, division, ranks);
   const auto enter = [&] {
     enter_received(received, addresses, division.patches, me, stars.of_node, outside);
     if (outside != nullptr) stars.outside = outside->nodes();

@@ -34,16 +34,6 @@ struct Stars {
   std::unique_ptr<Homes> homes;
 };
 
-/// Sums over stars.
-struct StarSums {
-  std::int64_t nodes = 0, neighbours = 0, boundary = 0;  ///< boundary: nodes at the boundary
-  /// Euler's formula. V nodes, F triangles and B boundary arcs of a sphere (B = 0) or a disc have
-  /// V - (F + B)/2 = 2 or 1. A star has as many triangles as neighbours; at the boundary, one less.
-  bool are_of_sphere_or_disc() const {
-    return 6 * nodes - neighbours - 2 * boundary == (boundary > 0 ? 6 : 12);
-  }
-};
-
 /// `addresses`: of these nodes. Collective. Throws AgreedFailure or HiddenNode.
 template <class Int>
 Stars<Int> return_rings(Patches<Int> patches, RingAddresses addresses, const LocalNodes& nodes,
