@@ -15,10 +15,6 @@
 namespace pstripack {
 namespace {
 
-// Number of sample nodes that are searched for hidden ones before nodes go to patches. A hidden node that is
-// found later costs the time of the patches once more.
-constexpr std::size_t kLookedThrough = 500;
-
 /// What a rank brings.
 struct Headcount {
   std::size_t nodes;
@@ -30,7 +26,6 @@ struct Headcount {
 /// A sample of the nodes of all ranks, the same on every rank.
 struct GlobalSample {
   bool reuses_patches = false;  ///< of the last call
-  bool looks_through = true;    ///< for hidden nodes; not where the last call found none
   std::vector<SentNode> nodes;
   std::vector<std::int64_t> counter;  ///< memory for the counters of cut_anew()
 };
@@ -60,10 +55,8 @@ GlobalSample sample_of_all(const LocalNodes& nodes, Communicator& ranks, const P
     const auto patches = static_cast<std::size_t>(division.patches.count());
     sample.reuses_patches =
         are_at_home && last->are_for(options.partition, division.patches, division.places.lengths());
-    sample.looks_through = !sample.reuses_patches || last->lengths() != division.places.lengths();
-    const std::size_t wanted = !sample.reuses_patches ? sample_size(division.nodes, patches)
-                               : sample.looks_through ? kLookedThrough
-                                                      : options.closing_nodes;
+    const std::size_t wanted =
+        sample.reuses_patches ? options.closing_nodes : sample_size(division.nodes, patches);
     std::size_t before = 0, size = 0;
     for (RankNumber r = 0; r < heads.size(); ++r) {
       const std::size_t share =
@@ -127,52 +120,28 @@ std::vector<SentNode> some_of(const std::vector<SentNode>& sample, std::size_t m
   return some;
 }
 
-/// Calls visit(hull) for the hull of some nodes, not all on one great circle, which stands for that of all
-/// nodes. Hull::order are their places in `nodes`.
-template <class Visit>
-auto with_hull_of(const std::vector<SentNode>& nodes, const Visit& visit) {
-  std::vector<Point> points;
-  for (const SentNode& r : nodes) points.push_back(r.point);
-  Workspace workspace(workspace_bytes(points.size()));
-  return visit(delaunay(points.data(), points.size(), workspace));
-}
-
-/// Throws HiddenNode if the lengths hide one of these nodes: it is hidden in every larger set, too. Builds
-/// the hull only if two nodes that follow each other on a curve are close.
-void look_for_hidden_nodes(std::vector<SentNode> nodes, const Places& places) {
-  if (places.lengths() != Lengths::as_given) return;
-  sort_along_curve(nodes);
-  // A node of length 1 - d among others of length 1 is hidden if they are no farther off than sqrt(2 d).
-  double least = 4;
-  for (std::size_t k = 1; k < nodes.size(); ++k) {
-    const Point d = minus(nodes[k].point, nodes[k - 1].point);
-    least = std::min(least, dot(d, d));
-  }
-  if (least > 4 * places.deviation()) return;
-  if (with_hull_of(nodes, [](const Hull& hull) { return hull.lengths; }) != Lengths::as_given)
-    throw HiddenNode{};
-}
-
 /// True if more than a third of the triangles of these nodes have corners in different patches, or, if these
 /// are more than `parts`, in different parts of so many.
 bool cuts_many_triangles(const Partition& partition, std::size_t parts, const std::vector<SentNode>& nodes,
                          const Places& places) {
   const auto patches = static_cast<std::size_t>(partition.patches());
   std::vector<std::size_t> part;
+  std::vector<Point> points;
   for (const SentNode& r : nodes) {
+    points.push_back(r.point);
     const auto owner = static_cast<std::size_t>(partition.owner(places(r.point)));
     part.push_back(patches > parts ? owner * parts / patches : owner);
   }
-  return with_hull_of(nodes, [&](const Hull& hull) {
-    std::size_t triangles = 0, cut = 0;
-    for (std::size_t t = 0; t < hull.face_count; ++t) {
-      if (!hull.front(t)) continue;
-      const auto part_of = [&](int i) { return part[hull.order[hull.faces[t].vertex[i]]]; };
-      ++triangles;
-      cut += part_of(0) != part_of(1) || part_of(1) != part_of(2);
-    }
-    return 3 * cut > triangles;
-  });
+  Workspace workspace(workspace_bytes(points.size()));
+  const Hull hull = delaunay(points.data(), points.size(), workspace);
+  std::size_t triangles = 0, cut = 0;
+  for (std::size_t t = 0; t < hull.face_count; ++t) {
+    if (!hull.front(t)) continue;
+    const auto part_of = [&](int i) { return part[hull.order[hull.faces[t].vertex[i]]]; };
+    ++triangles;
+    cut += part_of(0) != part_of(1) || part_of(1) != part_of(2);
+  }
+  return 3 * cut > triangles;
 }
 
 /// True if neighbours in the mesh may be far from each other, as along lines that cross.
@@ -195,10 +164,7 @@ Division divide(const LocalNodes& nodes, const Corners& corners, const Places& p
   Division division(places);
   GlobalSample sample = sample_of_all(nodes, ranks, options, division);
   Outcome outcome = Outcome::of([&] {
-    std::vector<SentNode> known{corners.begin(), corners.end()};
-    if (sample.looks_through && options.given == nullptr)
-      look_for_hidden_nodes(some_of(sample.nodes, kLookedThrough, known), places);
-    division.closing = some_of(sample.nodes, options.closing_nodes, std::move(known));
+    division.closing = some_of(sample.nodes, options.closing_nodes, {corners.begin(), corners.end()});
     sort_along_curve(division.closing);
   });
   if (options.given != nullptr) {

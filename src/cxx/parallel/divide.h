@@ -52,7 +52,7 @@ struct Division {
   std::vector<SentNode> closing;  ///< nodes of the sample that every patch knows
 };
 
-/// Collective. Throws AgreedFailure, HiddenNode or PatchesDoNotPay.
+/// Collective. Throws AgreedFailure or PatchesDoNotPay.
 Division divide(const LocalNodes& nodes, const Corners& corners, const Places& places, Communicator& ranks,
                 const ParallelOptions& options);
 

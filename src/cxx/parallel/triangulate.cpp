@@ -87,6 +87,7 @@ Stars<Int> triangulate(const LocalNodes& nodes, const NodeCheck& check, const Po
   const bool by_coordinates = check.lengths_are_one.value && !check.by_direction.value;
   Stars<Int> stars = with_lengths(by_coordinates, [&](Lengths lengths) {
     const Places places(lengths, check.deviation.value);
+    c.halo = 0;  // without that of a try that a hidden node has ended
     try {
       return triangulate_places<Int>(nodes, records, places, ranks, options, c, &homes);
     } catch (const PatchesDoNotPay&) {
