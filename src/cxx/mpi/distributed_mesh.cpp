@@ -362,21 +362,15 @@ std::int32_t DistributedMesh::gather_stars(std::int32_t root, const ListArrays& 
              me = static_cast<std::size_t>(ranks_.rank());
 
   // Each star goes to the rank whose slice contains its number.
-  const auto rank_of = [&](std::int64_t number) {  // the r with slice_begin(r) < number <= slice_begin(r+1)
-    auto r = static_cast<std::size_t>((number - 1) * static_cast<std::int64_t>(size) / total_);
-    while (slice_begin(n, r + 1, size) < static_cast<std::size_t>(number)) ++r;
-    while (slice_begin(n, r, size) >= static_cast<std::size_t>(number)) --r;
-    return static_cast<std::uint32_t>(r);
-  };
   std::vector<std::size_t> begin;
   const Parcels here = exchange_in_agreement(ranks_, [&] {
     for (std::size_t r = 0; r <= size; ++r) begin.push_back(slice_begin(n, r, size));
-    BlockArray<std::uint32_t> rank(own_.count());
-    std::transform(own_.numbers(), own_.numbers() + own_.count(), rank.begin(), rank_of);
     // Numbers up to the total fit 32 bits.
     return packed_rings<std::int32_t>(size, [&](const auto& visit) {
       own_.for_each([&](std::size_t i, std::size_t count, const auto& write) {
-        visit(rank[i], own_.numbers()[i], count, write);
+        const auto number = static_cast<std::size_t>(own_.numbers()[i]);
+        const auto next = std::lower_bound(begin.begin() + 1, begin.end(), number);
+        visit(static_cast<RankNumber>(next - begin.begin()) - 1, own_.numbers()[i], count, write);
       });
     });
   });

@@ -193,8 +193,8 @@ void MpiCommunicator::send_and_receive(const void* out, std::size_t out_size, in
 }
 
 // The collectives take about log2(ranks) steps; in step k a rank communicates with those 2^k away (Bruck,
-// Ho, Kipnis, Upfal & Weathersby 1997; all_min: Hensgen, Finkel & Manber 1988). MPI's own collectives are
-// not used: the nonblocking ones send to every rank, and the blocking ones spin.
+// Ho, Kipnis, Upfal & Weathersby 1997; all_min: Hensgen, Finkel & Manber 1988). MPI's own are slower: the
+// nonblocking ones send to every rank, or more often, and the blocking ones spin.
 
 void MpiCommunicator::all_min(std::int64_t* values, std::size_t count) {
   std::int64_t others[kMostValues];
@@ -206,25 +206,16 @@ void MpiCommunicator::all_min(std::int64_t* values, std::size_t count) {
   }
 }
 
-/// Sums up a binomial tree to rank 0, which broadcasts the result.
+/// By MPI's own, because it is seldom called.
 void MpiCommunicator::all_sum(std::int64_t* values, std::size_t count) {
-  constexpr std::size_t kTogether = 2048;
-  std::int64_t others[kTogether];
+  constexpr std::size_t kTogether = std::size_t{1} << 20;  // MPI counts in int
   for (std::size_t at = 0; at < count; at += kTogether) {
-    std::int64_t* const mine = values + at;
-    const std::size_t n = std::min(kTogether, count - at), bytes = n * sizeof *mine;
-    for (int distance = 1; distance < size_; distance *= 2) {
-      if ((rank_ & distance) != 0) {
-        send_and_receive(mine, bytes, rank_ - distance, nullptr, 0, 0);
-        bytes_sent += static_cast<std::int64_t>(bytes);
-        break;
-      }
-      if (rank_ + distance >= size_) continue;
-      send_and_receive(nullptr, 0, 0, others, bytes, rank_ + distance);
-      for (std::size_t i = 0; i < n; ++i) mine[i] += others[i];
-    }
-    broadcast(mine, bytes, 0);
+    MPI_Request request;
+    check(MPI_Iallreduce(MPI_IN_PLACE, values + at, static_cast<int>(std::min(kTogether, count - at)),
+                         MPI_INT64_T, MPI_SUM, comm_, &request));
+    wait(request);
   }
+  bytes_sent += static_cast<std::int64_t>(count * sizeof *values);
 }
 
 const std::int64_t* MpiCommunicator::all_gather_one(std::int64_t value) {

@@ -40,24 +40,19 @@ std::int64_t first_repeated(const LocalNodes& points, const Numbering& numbering
       ranks,
       [&] {
         const Items<GlobalNumber> met(here);
-        const auto see = [&](GlobalNumber number, bool is_new) {
-          if (!is_new) repeated.value = std::min(repeated.value, value_of(number));
-        };
-        if (is_dense) {
-          const std::int64_t first = numbering.low + static_cast<std::int64_t>(me * slice);
-          std::vector<bool> has_come(slice);
-          for (const GlobalNumber number : met) {
-            const auto k = static_cast<std::size_t>(value_of(number) - first);
-            see(number, !has_come[k]);
-            has_come[k] = true;
-          }
+        if (!is_dense) {
+          std::vector<GlobalNumber> sorted(met.begin(), met.end());
+          std::sort(sorted.begin(), sorted.end());
+          const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+          if (twice != sorted.end()) repeated.value = value_of(*twice);
           return;
         }
-        NumberTable<char> table(met.size());
-        constexpr std::ptrdiff_t kAhead = 16;
-        for (const GlobalNumber* at = met.begin(); at < met.end(); ++at) {
-          if (met.end() - at > kAhead) table.prefetch(at[kAhead]);
-          see(*at, table.insert(*at, 0).second);
+        const std::int64_t first = numbering.low + static_cast<std::int64_t>(me * slice);
+        std::vector<bool> has_come(slice);
+        for (const GlobalNumber number : met) {
+          const auto k = static_cast<std::size_t>(value_of(number) - first);
+          if (has_come[k]) repeated.value = std::min(repeated.value, value_of(number));
+          has_come[k] = true;
         }
       },
       repeated);

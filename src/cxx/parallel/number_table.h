@@ -53,10 +53,6 @@ class Table {
     return place.key == key ? &place.value : nullptr;
   }
   const Value* find(const Key& key) const { return const_cast<Table*>(this)->find(key); }
-  /// A hint that the key will be asked for soon.
-  [[gnu::always_inline]] void prefetch(const Key& key) const {
-    if (!place_.empty()) __builtin_prefetch(&place_[home(key)], 1);
-  }
 
  private:
   static constexpr std::size_t kFewest = 16;
