@@ -43,11 +43,7 @@ template <class T>
 class Cached {
  public:
   Cached() = default;
-  Cached(Cached&& other) noexcept : place_(std::exchange(other.place_, -1)) {}
-  Cached& operator=(Cached&& other) noexcept {
-    std::swap(place_, other.place_);
-    return *this;
-  }
+  Cached(const Cached&) = delete;
   ~Cached() { take(); }
 
   /// Stores `value`, or destroys it if there is no free place.

@@ -15,11 +15,11 @@
 #include <cstring>
 #include <exception>
 #include <memory>
-#include <random>
 #include <stdexcept>
 #include <string>
 
 #include "base/environment.h"
+#include "base/splitmix64.h"
 #include "base/transfer.h"
 #include "lists/limits.h"
 #include "observe/recorded_block.h"
@@ -125,13 +125,8 @@ class Check {
   void unlock() { pthread_mutex_unlock(&one_block_at_a_time_); }
 
   void draw_process_number() {
-    try {
-      std::random_device random;
-      process_ = std::uint64_t{random()} << 32 | random();
-    } catch (const std::exception&) {  // the system has no random numbers
-      process_ = static_cast<std::uint64_t>(getpid()) << 32 ^
-                 static_cast<std::uint64_t>(1e9 * clock_seconds(CLOCK_REALTIME));
-    }
+    const double now = clock_seconds(CLOCK_REALTIME);
+    process_ = splitmix64(static_cast<std::uint64_t>(getpid()) << 32 ^ static_cast<std::uint64_t>(1e9 * now));
   }
 
   /// In a forked child.

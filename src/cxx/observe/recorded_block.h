@@ -25,7 +25,7 @@ struct BlockHeader {
   std::uint32_t routine = trmesh;
   std::uint32_t real_bytes = 0;     ///< of x, y, z
   std::uint32_t integer_bytes = 0;  ///< of list, lptr, lend
-  std::uint64_t process = 0;        ///< a random number of the process, because process ids are reused
+  std::uint64_t process = 0;        ///< a hash of its id and the time, because process ids are reused
   std::int64_t process_id = 0;
   std::int64_t call = 0;  ///< from 1 in each process; an output belongs to the input of its process and call
   std::int64_t n = 0;

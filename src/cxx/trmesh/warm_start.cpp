@@ -28,22 +28,6 @@ SampleOfStars sample_of(std::size_t n, const std::int32_t* list, const std::int3
 
 }  // namespace
 
-/// The differences between the current lists of a mesh and the cached ones.
-class ListChanges {
- public:
-  ListChanges() = default;
-  /// Throws std::bad_alloc.
-  explicit ListChanges(const CachedMesh& cached);
-  std::size_t count() const { return changes_.size(); }
-
-  /// Writes the lists of the mesh: runs of the cached lists, and a new ring for each change. Parallel.
-  void write(const CachedMesh& cached, std::int32_t* list, std::int32_t* lptr, std::int32_t* lend) const;
-
- private:
-  std::vector<MovingMesh::Change> changes_;
-  std::vector<std::int32_t> shift_;  ///< [j]: shift, in slots, of the lists after the first j changes
-};
-
 /// LIST and LEND of a mesh. `mesh` is made by the first call that starts from it.
 struct CachedMesh {
   CachedMesh(std::size_t n, std::size_t slots)
@@ -51,11 +35,17 @@ struct CachedMesh {
         list(slots),
         lend(n) {}
   std::int32_t begin(std::size_t k) const { return k == 0 ? 0 : lend[k - 1]; }
+  /// Throws std::bad_alloc.
+  void find_changes();
+  /// After find_changes(): writes the lists of the mesh: runs of the cached lists, and a new ring for each
+  /// change. Parallel.
+  void write(std::int32_t* to_list, std::int32_t* to_lptr, std::int32_t* to_lend) const;
 
   const CacheReservation reservation;
   BlockArray<std::int32_t> list, lend;
   std::optional<MovingMesh> mesh;
-  ListChanges changes;  ///< from find_mesh() to write()
+  std::vector<MovingMesh::Change> changes;  ///< of the mesh since `list` was written
+  std::vector<std::int32_t> shift;          ///< [j]: shift, in slots, of the lists after the first j changes
 };
 
 struct LastMesh : CachedThing {
@@ -111,36 +101,36 @@ void copy(const std::int32_t* from, std::size_t count, std::int32_t* to) {
 
 }  // namespace
 
-ListChanges::ListChanges(const CachedMesh& cached)
-    : changes_(cached.mesh->changes()), shift_(changes_.size() + 1) {
-  for (std::size_t j = 0; j < changes_.size(); ++j) {
-    const auto [k, count] = changes_[j];
-    shift_[j + 1] = shift_[j] + static_cast<std::int32_t>(count) - (cached.lend[k] - cached.begin(k));
+void CachedMesh::find_changes() {
+  changes = mesh->changes();
+  shift.assign(changes.size() + 1, 0);
+  for (std::size_t j = 0; j < changes.size(); ++j) {
+    const auto [k, count] = changes[j];
+    shift[j + 1] = shift[j] + static_cast<std::int32_t>(count) - (lend[k] - begin(k));
   }
 }
 
-void ListChanges::write(const CachedMesh& cached, std::int32_t* list, std::int32_t* lptr,
-                        std::int32_t* lend) const {
-  const std::size_t n = cached.mesh->size();
-  const std::int32_t *const old_list = cached.list.data(), *const old_end = cached.lend.data();
+void CachedMesh::write(std::int32_t* to_list, std::int32_t* to_lptr, std::int32_t* to_lend) const {
+  const std::size_t n = mesh->size();
+  const std::int32_t *const old_list = list.data(), *const old_end = lend.data();
   const int threads = threads_for(n);
   parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int) {
     auto j = static_cast<std::size_t>(
-        std::lower_bound(changes_.begin(), changes_.end(), first,
+        std::lower_bound(changes.begin(), changes.end(), first,
                          [](const MovingMesh::Change& c, std::size_t k) { return c.node < k; }) -
-        changes_.begin());
+        changes.begin());
     for (std::size_t k = first; k < last;) {
-      const std::int32_t begin = cached.begin(k), shift = shift_[j];
-      const std::size_t end = j < changes_.size() ? std::min<std::size_t>(changes_[j].node, last) : last;
-      if (end > k) std::copy(old_list + begin, old_list + old_end[end - 1], list + begin + shift);
-      for (; k < end; ++k) lend[k] = old_end[k] + shift;
+      const std::int32_t from = begin(k), here = shift[j];
+      const std::size_t end = j < changes.size() ? std::min<std::size_t>(changes[j].node, last) : last;
+      if (end > k) std::copy(old_list + from, old_list + old_end[end - 1], to_list + from + here);
+      for (; k < end; ++k) to_lend[k] = old_end[k] + here;
       if (k == last) break;
-      const std::int32_t place = cached.begin(k) + shift;
-      cached.mesh->write_ring(k, list + place);
-      lend[k++] = place + static_cast<std::int32_t>(changes_[j++].count);
+      const std::int32_t place = begin(k) + here;
+      mesh->write_ring(k, to_list + place);
+      to_lend[k++] = place + static_cast<std::int32_t>(changes[j++].count);
     }
   });
-  write_lptr(lend, n, 0, lptr, threads);
+  write_lptr(to_lend, n, 0, to_lptr, threads);
 }
 
 WarmStart::WarmStart(const NodeArrays& nodes, std::size_t n, Confirm confirm)
@@ -183,7 +173,7 @@ bool WarmStart::find_mesh(ParallelCost* cost) noexcept {
     if (fits && (moved.any || last_->confirm != confirm_)) fits = cached.mesh->repair(confirm_);
     last_->confirm = confirm_;
     if (fits) {
-      cached.changes = ListChanges(cached);
+      cached.find_changes();
       if (cost != nullptr) {
         cost->set_threads(thread_count(n_));
         cost->flips = moved.any ? static_cast<std::int64_t>(cached.mesh->flips()) : 0;
@@ -201,9 +191,9 @@ void WarmStart::write(const ListArrays& lists, ParallelCost* cost) noexcept {
   const auto& [list, lptr, lend, lnew] = lists;
   {
     const PhaseTimer timer(cost, ParallelCost::lists);
-    cached.changes.write(cached, list, lptr, lend);
+    cached.write(list, lptr, lend);
     *lnew = lend[n_ - 1] + 1;
-    if (cached.changes.count() > n_ / 16) {
+    if (cached.changes.size() > n_ / 16) {
       copy(list, cached.list.size(), cached.list.data());
       copy(lend, n_, cached.lend.data());
       cached.mesh->forget_changes();
