@@ -175,12 +175,12 @@ Parcels parcels_for_others(const Here& here, const Routes& routes) {
 }
 
 /// Unpacks n nodes, which are records or the numbers of some of `all`.
-void unpack(ParcelReader& parcel, std::size_t n, const NodeArrays* all, SentNode* to) {
+void unpack(const unsigned char*& parcel, std::size_t n, const NodeArrays* all, SentNode* to) {
   if (all == nullptr) {
-    std::copy_n(parcel.array<SentNode>(n), n, to);
+    std::copy_n(next_items<SentNode>(parcel, n), n, to);
     return;
   }
-  const Number* const numbers = parcel.array<Number>(n);
+  const Number* const numbers = next_items<Number>(parcel, n);
   all->visit([&](const auto& node) {
     for (std::size_t i = 0; i < n; ++i) to[i] = {node(numbers[i] - 1), GlobalNumber{numbers[i]}};
   });
@@ -192,14 +192,14 @@ void place_nodes(const Here& here, Routes routes, Parcels arrived, Delivery& del
   const std::size_t ranks = here.patches().ranks(), patches = here.patches().count(here.me);
   const auto first = static_cast<std::size_t>(here.patches().first(here.me));
   std::vector<std::vector<Count>> brought(ranks, std::vector<Count>(patches));  // by each rank
-  std::vector<ParcelReader> parcel;
+  std::vector<const unsigned char*> parcel;
   std::size_t records = 0;
   for (RankNumber r = 0; r < ranks; ++r) {
-    parcel.emplace_back(arrived, r);
+    parcel.push_back(arrived.bytes.data() + arrived.begin[r]);
     if (r == here.me)
       std::copy_n(routes.sent.data() + first, patches, brought[r].data());
-    else if (!parcel[r].is_at_end())
-      std::copy_n(parcel[r].array<Count>(patches), patches, brought[r].data());
+    else if (arrived.begin[r] < arrived.begin[r + 1])
+      std::copy_n(next_items<Count>(parcel[r], patches), patches, brought[r].data());
     for (const Count& count : brought[r]) records += count.all();
   }
   delivery.nodes = BlockArray<SentNode>(records);

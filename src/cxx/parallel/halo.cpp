@@ -27,10 +27,8 @@ Halo::Halo(const std::vector<NodeAddress>& outside, Communicator& ranks) {
 }
 
 void Halo::send(RankNumber r, LocalNode k) {
-  if (sent_.empty())
-    for (RankNumber to = 0; to < send_.size(); ++to)
-      for (const LocalNode node : send_[to]) sent_.insert(key(to, node));
-  if (sent_.insert(key(r, k)).second) send_[r].push_back(k);
+  std::vector<LocalNode>& to = send_[r];
+  if (std::find(to.begin(), to.end(), k) == to.end()) to.push_back(k);
 }
 
 Halo Halo::renamed(const std::vector<OutsideNode>& names) const {

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <unordered_set>
 #include <vector>
 
 #include "geometry/point.h"
@@ -86,10 +85,8 @@ class Halo {
   void receive(RankNumber r, OutsideNode j) { receive_[r].push_back(j); }
 
  private:
-  static std::uint64_t key(RankNumber r, LocalNode k) { return std::uint64_t{r} << 32 | k; }
   std::vector<std::vector<LocalNode>> send_;       ///< to each rank
   std::vector<std::vector<OutsideNode>> receive_;  ///< from each rank
-  std::unordered_set<std::uint64_t> sent_;         ///< keys of send_; filled by the first send()
 };
 
 /// Fetches point and caller's number of each node outside, and sorts them by number. The result exchanges

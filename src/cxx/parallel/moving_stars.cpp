@@ -117,16 +117,6 @@ void MovingStars::begin_with(MovingStars& last, const Relocation& way, const Sta
   come_ = last.come_ + more.node.size();
 }
 
-void MovingStars::sort_outside() {
-  std::vector<OutsideNode> sorted;
-  for (std::uint32_t j = 0; j < outside_.size(); ++j)
-    if (outside_[j].arcs > 0) sorted.push_back(OutsideNode{j});
-  std::sort(sorted.begin(), sorted.end(), [&](OutsideNode a, OutsideNode b) {
-    return outside_[index_of(a)].number < outside_[index_of(b)].number;
-  });
-  by_number_ = std::move(sorted);
-}
-
 // ---- 1, 2 and 3 ----------------------------------------------------------------------------------------
 
 bool MovingStars::repair(const LocalNodes& nodes, Communicator& ranks, Confirm confirm) {
@@ -333,9 +323,14 @@ void MovingStars::update(Stars<Int>& stars) {
   mesh_->forget_changes();
 
   if (!by_number_) {
-    sort_outside();
+    std::vector<OutsideNode>& sorted = by_number_.emplace();
+    for (std::uint32_t j = 0; j < outside_.size(); ++j)
+      if (outside_[j].arcs > 0) sorted.push_back(OutsideNode{j});
+    std::sort(sorted.begin(), sorted.end(), [&](OutsideNode a, OutsideNode b) {
+      return outside_[index_of(a)].number < outside_[index_of(b)].number;
+    });
     std::vector<OutsideNode> names(outside_.size(), Halo::kNobody);
-    for (std::uint32_t k = 0; k < by_number_->size(); ++k) names[index_of((*by_number_)[k])] = OutsideNode{k};
+    for (std::uint32_t k = 0; k < sorted.size(); ++k) names[index_of(sorted[k])] = OutsideNode{k};
     stars.halo = halo_.renamed(names);
   }
   stars.outside.clear();

@@ -80,7 +80,6 @@ class MovingStars : public CachedThing {
   bool begin(const LocalNodes& nodes, const Stars<Int>& stars);
   template <class Int>
   void begin_with(MovingStars& last, const Relocation& way, const Stars<Int>& stars);
-  void sort_outside();
   bool move_nodes(const LocalNodes& nodes, Communicator& ranks, Confirm confirm);
   std::optional<MovingMesh::Mark> agree_on_mark(Communicator& ranks);
   bool propose(const LocalNodes& nodes, std::vector<Flip>& flips);

@@ -61,23 +61,14 @@ class ParcelWriter {
   std::size_t alignment_ = 1;
 };
 
-/// Unpacks the parcel of one rank, in the order in which it was packed.
-class ParcelReader {
- public:
-  ParcelReader(const Parcels& parcels, RankNumber rank)
-      : at_(parcels.bytes.data() + parcels.begin[rank]),
-        end_(parcels.bytes.data() + parcels.begin[rank + 1]) {}
-  bool is_at_end() const { return at_ == end_; }
-  template <class Item>
-  const Item* array(std::size_t n) {
-    const auto* const items = reinterpret_cast<const Item*>(at_);
-    at_ += n * sizeof(Item);
-    return items;
-  }
-
- private:
-  const unsigned char *at_, *end_;
-};
+/// The next n items of a parcel, which are followed by what `at` is then, in the order in which they were
+/// packed.
+template <class Item>
+const Item* next_items(const unsigned char*& at, std::size_t n) {
+  const auto* const items = reinterpret_cast<const Item*>(at);
+  at += n * sizeof(Item);
+  return items;
+}
 
 /// Items in parcels that hold nothing else.
 template <class Item>

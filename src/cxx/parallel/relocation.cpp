@@ -44,9 +44,9 @@ Relocation::Relocation(const std::int64_t* before, const NodeRanges& last, const
     if (to_[k] == kGone) others.insert(GlobalNumber{before[k]}, static_cast<LastNode>(k));
   for (std::size_t i = 0; i < nodes.count; ++i) {
     if (from_[i] != kNotHere) continue;
-    are_positive_ = are_positive_ && value_of(nodes.number(i)) > 0;
-    const LastNode* const k = others.find(nodes.number(i));
-    if (are_positive_ && k != nullptr && to_[*k] == kGone)
+    // A table has no key 0. A number that is not positive was not here.
+    const LastNode* const k = value_of(nodes.number(i)) > 0 ? others.find(nodes.number(i)) : nullptr;
+    if (k != nullptr && to_[*k] == kGone)
       are_the_same(*k, i);
     else
       from_[i] = static_cast<LastNode>(had_ + come_++);
@@ -62,16 +62,9 @@ std::optional<Relocation> Relocation::find(const std::int64_t* before, const Nod
   const std::int64_t* const counts = ranks.all_gather_one(static_cast<std::int64_t>(nodes.count));
   if (std::accumulate(counts, counts + size, std::int64_t{0}) != ranges.nodes()) return std::nullopt;
   std::optional<Relocation> found;
-  OnAll are_positive;
-  in_agreement(
-      ranks,
-      [&] {
-        const NodeRanges now(counts, size);
-        found.emplace(before, ranges, now, static_cast<RankNumber>(ranks.rank()), nodes);
-        are_positive.value = found->are_positive_;
-      },
-      are_positive);
-  if (!are_positive.value) return std::nullopt;
+  in_agreement(ranks, [&] {
+    found.emplace(before, ranges, NodeRanges(counts, size), static_cast<RankNumber>(ranks.rank()), nodes);
+  });
   auto gone = static_cast<std::int64_t>(found->gone_.size());
   ranks.all_sum(&gone, 1);  // as many have come
   if (gone > ranges.nodes() / kFew || (gone > 0 && !found->find_addresses(nodes, ranks))) return std::nullopt;

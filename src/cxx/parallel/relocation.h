@@ -66,7 +66,6 @@ class Relocation {
   NodeRanges last_, now_;
   RankNumber me_;
   std::size_t had_;
-  bool are_positive_ = true;               ///< the numbers of nodes that were not here
   BlockArray<LastNode> from_;              ///< by LocalNode; had_, had_ + 1, ... if it was not here
   BlockArray<LocalNode> to_;               ///< by LastNode; kGone if another rank brings it
   std::size_t come_ = 0;                   ///< nodes that were not here
