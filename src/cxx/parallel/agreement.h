@@ -74,6 +74,7 @@ struct PatchesDoNotPay : std::exception {
 /// have codes of their own, which are no result codes; that of a failure is smaller.
 class Outcome {
  public:
+  explicit Outcome(std::int32_t code = 0) : code_(code) {}
   template <class Body>
   static Outcome of(const Body& body) {
     Outcome outcome;
@@ -86,11 +87,6 @@ class Outcome {
   }
   /// For Communicator::exchange().
   std::int32_t code() const { return code_; }
-  static Outcome of_code(std::int32_t code) {
-    Outcome outcome;
-    outcome.code_ = code;
-    return outcome;
-  }
   bool is_good() const { return code_ == 0; }
   /// Returns if the body returned. Throws HiddenNode, PatchesDoNotPay or AgreedFailure.
   void accept() const;
@@ -105,7 +101,7 @@ class Outcome {
 
  private:
   static std::int32_t code_of_current();
-  std::int32_t code_ = 0;
+  std::int32_t code_;
 };
 
 /// Each vote becomes the result over all ranks. Collective.
@@ -136,7 +132,7 @@ Parcels exchange_in_agreement(Communicator& ranks, const Body& body) {
   try {
     return ranks.exchange(outgoing, outcome.code());
   } catch (const AgreedFailure& failure) {
-    Outcome::of_code(failure.code).accept();
+    Outcome(failure.code).accept();
     throw;
   }
 }
