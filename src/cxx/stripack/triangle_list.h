@@ -19,7 +19,7 @@ enum class TriangleListStatus {
 ///   rows 7-9  (rows = 9) the arc opposite the corner, arcs numbered from 1.
 /// Triangles are numbered by their smallest corner, then in the order of the list of that node; an arc is
 /// numbered with the later of its triangles. `rows` = 3 is TRLIST2. O(n), on threads for large n; the
-/// result has the same bytes for any number of threads. Takes 87 bytes per node during the call, 52 more if
+/// result has the same bytes for any number of threads. Takes 79 bytes per node during the call, 52 more if
 /// the lists are not canonical (Int = int32_t). Throws std::bad_alloc before anything is written.
 template <class Int>
 TriangleListStatus triangle_list(const ListsView<Int>& lists, int rows, Int& nt, Int* ltri);
