@@ -124,9 +124,9 @@ module stripack
     ! Finds the next nearest node to a node.
     ! NPTS(1) is a node, NPTS(2..L-1) the nodes nearest to it, in order, from earlier calls; the call sets
     ! NPTS(L). Calls with L = 2, 3, ... give all nodes by their distance from NPTS(1).
-    ! IER  0 done; 1 L < 2; -5 a distance is not finite (new); -6 out of memory, only if L > 257 (new); -13 a
-    !      list runs into a loop (new); -10 NPTS holds a number below 1, or the same one twice (new); -15 no
-    !      node is left: L > N (new).
+    ! IER  0 done; 1 L < 2; -5 a distance is not finite (new); -6 out of memory (new); -13 a list runs into a
+    !      loop (new); -10 NPTS holds a number below 1, or the same one twice (new); -15 no node is left: L >
+    !      N (new).
     subroutine getnp(x, y, z, list, lptr, lend, l, npts, df, ier)
       integer :: list(*), lptr(*), lend(*), l, npts(*), ier
       real(STRIPACK_REAL_KIND) :: x(*), y(*), z(*), df

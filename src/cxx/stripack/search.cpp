@@ -1,7 +1,6 @@
 #include "stripack/search.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -303,38 +302,27 @@ class Candidates {
   int count_;
 };
 
-/// The nodes given to GETNP: a hash table. An empty cell holds 0, which is no node number. It is on the heap
-/// for more than 256 nodes.
+/// The nodes given to GETNP: a hash table. An empty cell holds 0, which is no node number.
 template <class Int>
 class GivenNodes {
  public:
   explicit GivenNodes(Int count) {
+    constexpr int kCellsANode = 16;  // so many that collisions are rare
     while (std::int64_t{1} << (64 - shift_) < kCellsANode * std::int64_t{count}) --shift_;
-    const std::size_t cells = std::size_t{1} << (64 - shift_);
-    if (cells > few_.size()) more_.resize(cells);
-    cells_ = more_.empty() ? few_.data() : more_.data();
-    std::fill_n(cells_, cells, 0);
-    last_ = cells - 1;
+    cells_.resize(std::size_t{1} << (64 - shift_));
   }
-  GivenNodes(const GivenNodes&) = delete;
-  GivenNodes& operator=(const GivenNodes&) = delete;
 
   /// The cell of the node, or the empty one where it would go. Fibonacci hashing: splitmix64 would take GETNP
   /// 20 % longer.
   Int& operator[](Int node) {
     std::size_t cell = static_cast<std::uint64_t>(node) * 0x9E3779B97F4A7C15 >> shift_;
-    while (cells_[cell] != 0 && cells_[cell] != node) cell = (cell + 1) & last_;
+    while (cells_[cell] != 0 && cells_[cell] != node) cell = (cell + 1) & (cells_.size() - 1);
     return cells_[cell];
   }
 
  private:
-  static constexpr int kCellsANode = 16;  // so many that collisions are rare
-
   int shift_ = 60;
-  std::size_t last_;
-  Int* cells_;
-  std::array<Int, 256 * kCellsANode> few_;
-  std::vector<Int> more_;
+  std::vector<Int> cells_;
 };
 
 /// Calls visit(neighbour) for the neighbours of a node, the last one first. False if the list runs into a

@@ -61,7 +61,7 @@ enum class NextNearestStatus {
 /// above N.
 ///
 /// The original marks nodes by the signs of LEND. Here LEND is only read, so threads may share a
-/// triangulation. The marks are in a table, which is on the heap for l > 257: throws std::bad_alloc.
+/// triangulation. The marks are in a table: throws std::bad_alloc.
 template <class Real, class Int>
 NextNearestStatus next_nearest(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int l, Int* npts,
                                Real& distance);
