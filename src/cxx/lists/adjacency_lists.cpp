@@ -4,10 +4,11 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "base/parallel_for.h"
 #include "lists/list_pieces.h"
+#include "lists/rings.h"
 #include "mesh/ring_table.h"
 
 namespace pstripack {
@@ -64,67 +65,6 @@ Verdict malformed(const std::string& what, std::size_t node) {
 
 std::size_t absolute(std::int32_t v) { return static_cast<std::size_t>(v < 0 ? -v : v); }
 
-/// Finds a neighbour's position in a star: by linear search in a short star, in a sorted table for a hub.
-class StarPlaces {
- public:
-  explicit StarPlaces(const StarTable& stars) : stars_(stars) {
-    for (std::size_t v = 0; v < stars.size(); ++v) {
-      const std::uint32_t begin = stars.begin[v], end = stars.begin[v + 1];
-      if (end - begin <= kFew) continue;
-      hubs_.push_back({v, entries_.size()});
-      for (std::uint32_t i = begin; i < end; ++i) entries_.push_back({neighbour(i), i});
-      std::sort(entries_.begin() + static_cast<std::ptrdiff_t>(hubs_.back().entries), entries_.end());
-    }
-  }
-
-  index_t neighbour(std::uint32_t i) const { return stars_.to[i] < 0 ? ~stars_.to[i] : stars_.to[i]; }
-
-  /// The first position of `wanted` in the star of v, or the end of the star.
-  std::uint32_t find(index_t v, index_t wanted) const {
-    const auto s = static_cast<std::size_t>(v);
-    std::uint32_t i = stars_.begin[s];
-    const std::uint32_t end = stars_.begin[s + 1];
-    if (end - i <= kFew) {
-      while (i < end && neighbour(i) != wanted) ++i;
-      return i;
-    }
-    const auto [first, last] = entries_of(s);
-    const Entry* const entry = std::lower_bound(first, last, Entry{wanted, 0});
-    return entry != last && entry->first == wanted ? entry->second : end;
-  }
-
-  bool has_one_twice(std::size_t v) const {
-    const std::uint32_t begin = stars_.begin[v], end = stars_.begin[v + 1];
-    if (end - begin > kFew) {
-      const auto [first, last] = entries_of(v);
-      return std::adjacent_find(first, last,
-                                [](const Entry& a, const Entry& b) { return a.first == b.first; }) != last;
-    }
-    for (std::uint32_t i = begin; i < end; ++i)
-      for (std::uint32_t j = begin; j < i; ++j)
-        if (neighbour(i) == neighbour(j)) return true;
-    return false;
-  }
-
- private:
-  static constexpr std::uint32_t kFew = 24;
-  using Entry = std::pair<index_t, std::uint32_t>;
-  struct Hub {
-    std::size_t node, entries;
-  };
-
-  std::pair<const Entry*, const Entry*> entries_of(std::size_t v) const {
-    const auto hub = std::lower_bound(hubs_.begin(), hubs_.end(), v,
-                                      [](const Hub& h, std::size_t node) { return h.node < node; });
-    const Entry* const first = entries_.data() + hub->entries;
-    return {first, first + (stars_.begin[v + 1] - stars_.begin[v])};
-  }
-
-  const StarTable& stars_;
-  std::vector<Hub> hubs_;
-  std::vector<Entry> entries_;
-};
-
 /// Reads the neighbours of all nodes in the order of the lists. A defect if the lists are not closed or do
 /// not use exactly the slots 1..LNEW-1.
 Verdict read_stars(const ListsView<std::int32_t>& lists, StarTable& stars) {
@@ -168,33 +108,31 @@ Verdict read_stars(const ListsView<std::int32_t>& lists, StarTable& stars) {
   return {};
 }
 
-Verdict check_stars(const StarTable& stars) {
-  constexpr std::size_t kAhead = 8;
-  const StarPlaces places(stars);
-  for (std::size_t k = 0; k < stars.size(); ++k) {
-    if (k + kAhead < stars.size())
-      for (std::uint32_t i = stars.begin[k + kAhead]; i < stars.begin[k + kAhead + 1]; ++i)
-        __builtin_prefetch(&stars.begin[static_cast<std::size_t>(places.neighbour(i))]);
-    if (k + kAhead / 2 < stars.size())
-      for (std::uint32_t i = stars.begin[k + kAhead / 2]; i < stars.begin[k + kAhead / 2 + 1]; ++i)
-        __builtin_prefetch(&stars.to[stars.begin[static_cast<std::size_t>(places.neighbour(i))]]);
-    if (places.has_one_twice(k)) return malformed("a neighbour twice", k);
-    const std::uint32_t begin = stars.begin[k], end = stars.begin[k + 1];
-    for (std::uint32_t i = begin; i < end; ++i) {
-      const auto b = static_cast<std::size_t>(places.neighbour(i));
-      const std::uint32_t b_begin = stars.begin[b], b_end = stars.begin[b + 1];
-      const std::uint32_t place = places.find(static_cast<index_t>(b), static_cast<index_t>(k));
-      if (stars.to[i] < 0) {
-        // The last neighbour b of boundary node k precedes k on the boundary, so k is the first of b's list.
-        if (stars.to[b_end - 1] >= 0 || place != b_begin)
+/// Compares the stars of neighbours with each other. Needs read_stars to hold.
+Verdict compare_stars(const ListsView<std::int32_t>& lists) {
+  constexpr std::int32_t kAhead = 8;
+  Rings<std::int32_t> rings;
+  rings.read(lists, threads_for(lists.n));
+  for (std::int32_t a = 1; a <= rings.size(); ++a) {
+    const auto k = static_cast<std::size_t>(a) - 1;
+    const std::int32_t begin = rings.begin(a), end = rings.end(a), soon = std::min(a + kAhead, rings.size());
+    for (std::int32_t arc = rings.begin(soon); arc < rings.end(soon); ++arc)
+      rings.prefetch(rings.begin(rings.target(arc)));
+    for (std::int32_t arc = begin; arc < end; ++arc)
+      if (const std::int32_t first = rings.arc_back(rings.target(arc), a); first >= 0 && first != arc)
+        return malformed("a neighbour twice", k);
+    for (std::int32_t arc = begin; arc < end; ++arc) {
+      const std::int32_t b = rings.target(arc), back = rings.arc_back(a, b);
+      if (rings.entry(arc) < 0) {
+        // The last neighbour b of boundary node a precedes a on the boundary, so a is the first of b's list.
+        if (rings.entry(rings.end(b) - 1) >= 0 || back != rings.begin(b))
           return malformed("its last neighbour is not the boundary node before it", k);
         continue;
       }
-      // c follows b in k's list, so k must follow c in b's list.
-      const index_t c = places.neighbour(i + 1 == end ? begin : i + 1);
-      const std::uint32_t before = place == b_begin ? b_end - 1 : place - 1;
-      if (place == b_end || stars.to[before] != c)
-        return malformed("neighbours " + std::to_string(b + 1) + ", " + std::to_string(c + 1) +
+      // c follows b in a's list, so a must follow c in b's list.
+      const std::int32_t c = rings.target(rings.after(a, arc));
+      if (back < 0 || rings.entry(rings.before(b, back)) != c)
+        return malformed("neighbours " + std::to_string(b) + ", " + std::to_string(c) +
                              " make no triangle in the list of the first",
                          k);
     }
@@ -207,7 +145,7 @@ Verdict stars_of(const ListsView<std::int32_t>& lists, std::optional<StarTable>&
   if (lists.n < 3) return malformed("fewer than three nodes", 0);
   stars.emplace(lists.n, 6 * lists.n - 12);
   if (Verdict v = read_stars(lists, *stars); !v) return v;
-  return check_stars(*stars);
+  return compare_stars(lists);
 }
 
 }  // namespace
