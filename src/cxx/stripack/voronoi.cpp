@@ -41,37 +41,35 @@ namespace {
 template <class Int>
 class Agenda {
  public:
-  explicit Agenda(std::size_t n) : due_(n + 1, 0), this_pass_(with_room(n)), next_pass_(with_room(n)) {}
+  explicit Agenda(std::size_t n) : due_(n + 1, 0) {
+    std::vector<Test> room;
+    room.reserve(n);
+    tests_ = Heap(std::greater<Test>(), std::move(room));
+  }
 
   void add_all() {
     for (Int g = static_cast<Int>(due_.size()) - 1; g >= 1; --g) add(g);
   }
   void add(Int column) {
-    if (due_[static_cast<std::size_t>(column)]) return;
-    due_[static_cast<std::size_t>(column)] = 1;
-    (column > now_ ? this_pass_ : next_pass_).push(column);
+    if (std::exchange(due_[static_cast<std::size_t>(column)], 1) == 0)
+      tests_.push({column > now_ ? pass_ : pass_ + 1, column});
   }
   /// The next column to test; 0 if there is none.
   Int take() {
-    if (this_pass_.empty()) this_pass_.swap(next_pass_);
-    if (this_pass_.empty()) return now_ = 0;
-    now_ = this_pass_.top();
-    this_pass_.pop();
+    if (tests_.empty()) return now_ = 0;
+    std::tie(pass_, now_) = tests_.top();
+    tests_.pop();
     due_[static_cast<std::size_t>(now_)] = 0;
     return now_;
   }
 
  private:
-  using Heap = std::priority_queue<Int, std::vector<Int>, std::greater<Int>>;  // the smallest first
-  static Heap with_room(std::size_t n) {
-    std::vector<Int> room;
-    room.reserve(n);
-    return Heap(std::greater<Int>(), std::move(room));
-  }
+  using Test = std::pair<Int, Int>;                                               // pass, column
+  using Heap = std::priority_queue<Test, std::vector<Test>, std::greater<Test>>;  // the first in front
 
   std::vector<char> due_;
-  Heap this_pass_, next_pass_;
-  Int now_ = 0;
+  Heap tests_;
+  Int pass_ = 0, now_ = 0;
 };
 
 /// The triangles of boundary nodes that cover the far side, in the columns of the caller's LTRI. Column g:
