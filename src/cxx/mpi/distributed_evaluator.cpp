@@ -37,7 +37,9 @@ void DistributedEvaluator::triangulate_mesh(const std::vector<Point>& generators
     case PSTRIPACK_COINCIDENT:
       throw CoincidentGenerators(mesh_.error_point(0), mesh_.error_point(1));
     case PSTRIPACK_BAD_NUMBER:
-      throw BadNumber(mesh_.error_point(0));
+      throw BadGenerators("the generators' number " + std::to_string(mesh_.error_point(0)) +
+                              (mesh_.error_point(0) < 1 ? " is below 1" : " occurs twice"),
+                          code);
     default:
       throw AgreedFailure(code);
   }
