@@ -97,45 +97,43 @@ extern "C" {
     *ier = triangles("TRLIST2", n, list, lptr, lend, 3, nt, ltri);                                     \
   }
 
-#define SPHERE_CALLS(Real, Int, suffix)                                                                    \
-  void pstripack_trans_##suffix(Int n, const Real* rlat, const Real* rlon, Real* x, Real* y,               \
-                                Real* z) noexcept {                                                        \
-    in_default_floating_point([&] { trans(n, rlat, rlon, x, y, z); });                                     \
-  }                                                                                                        \
-  void pstripack_scoord_##suffix(Real px, Real py, Real pz, Real* plat, Real* plon, Real* pnrm) noexcept { \
-    const Vector<Real> v{px, py, pz};                                                                      \
-    const auto p = in_default_floating_point([&] { return scoord(v); });                                   \
-    *plat = p.latitude;                                                                                    \
-    *plon = p.longitude;                                                                                   \
-    *pnrm = p.norm;                                                                                        \
-  }                                                                                                        \
-  Int pstripack_left_##suffix(Real x1, Real y1, Real z1, Real x2, Real y2, Real z2, Real x0, Real y0,      \
-                              Real z0) noexcept {                                                          \
-    const Vector<Real> a{x1, y1, z1}, b{x2, y2, z2}, p{x0, y0, z0};                                        \
-    return in_default_floating_point([&] { return closed_left(a, b, p); }) ? 1 : 0;                        \
-  }                                                                                                        \
-  Real pstripack_areas_##suffix(const Real* v1, const Real* v2, const Real* v3) noexcept {                 \
-    return in_default_floating_point([&] { return areas(vector(v1), vector(v2), vector(v3)); });           \
-  }                                                                                                        \
-  void pstripack_circum_##suffix(const Real* v1, const Real* v2, const Real* v3, Real* c,                  \
-                                 Int* ier) noexcept {                                                      \
-    Vector<Real> centre;                                                                                   \
-    *ier = code_of("CIRCUM", 0, [&] {                                                                      \
-      if (!is_finite(vector(v1)) || !is_finite(vector(v2)) || !is_finite(vector(v3)))                      \
-        return int{PSTRIPACK_BAD_COORDINATE};                                                              \
-      return circumcentre(vector(v1), vector(v2), vector(v3), centre) ? 0 : 1;                             \
-    });                                                                                                    \
-    if (*ier != 0) return;                                                                                 \
-    c[0] = centre.x;                                                                                       \
-    c[1] = centre.y;                                                                                       \
-    c[2] = centre.z;                                                                                       \
-  }                                                                                                        \
-  void pstripack_triareas_##suffix(Int n, const Real* x, const Real* y, const Real* z, Int nt,             \
-                                   const Int* triangles, Real* triarea) noexcept {                         \
-    in_default_floating_point([&] { triangle_areas(n, Nodes<Real>{x, y, z}, nt, triangles, triarea); });   \
-  }
-
-#define MESH_CALLS(Real, Int, suffix)                                                                        \
+#define NODE_CALLS(Real, Int, suffix)                                                                        \
+  void pstripack_trans_##suffix(Int n, const Real* rlat, const Real* rlon, Real* x, Real* y,                 \
+                                Real* z) noexcept {                                                          \
+    in_default_floating_point([&] { trans(n, rlat, rlon, x, y, z); });                                       \
+  }                                                                                                          \
+  void pstripack_scoord_##suffix(Real px, Real py, Real pz, Real* plat, Real* plon, Real* pnrm) noexcept {   \
+    const Vector<Real> v{px, py, pz};                                                                        \
+    const auto p = in_default_floating_point([&] { return scoord(v); });                                     \
+    *plat = p.latitude;                                                                                      \
+    *plon = p.longitude;                                                                                     \
+    *pnrm = p.norm;                                                                                          \
+  }                                                                                                          \
+  Int pstripack_left_##suffix(Real x1, Real y1, Real z1, Real x2, Real y2, Real z2, Real x0, Real y0,        \
+                              Real z0) noexcept {                                                            \
+    const Vector<Real> a{x1, y1, z1}, b{x2, y2, z2}, p{x0, y0, z0};                                          \
+    return in_default_floating_point([&] { return closed_left(a, b, p); }) ? 1 : 0;                          \
+  }                                                                                                          \
+  Real pstripack_areas_##suffix(const Real* v1, const Real* v2, const Real* v3) noexcept {                   \
+    return in_default_floating_point([&] { return areas(vector(v1), vector(v2), vector(v3)); });             \
+  }                                                                                                          \
+  void pstripack_circum_##suffix(const Real* v1, const Real* v2, const Real* v3, Real* c,                    \
+                                 Int* ier) noexcept {                                                        \
+    Vector<Real> centre;                                                                                     \
+    *ier = code_of("CIRCUM", 0, [&] {                                                                        \
+      if (!is_finite(vector(v1)) || !is_finite(vector(v2)) || !is_finite(vector(v3)))                        \
+        return int{PSTRIPACK_BAD_COORDINATE};                                                                \
+      return circumcentre(vector(v1), vector(v2), vector(v3), centre) ? 0 : 1;                               \
+    });                                                                                                      \
+    if (*ier != 0) return;                                                                                   \
+    c[0] = centre.x;                                                                                         \
+    c[1] = centre.y;                                                                                         \
+    c[2] = centre.z;                                                                                         \
+  }                                                                                                          \
+  void pstripack_triareas_##suffix(Int n, const Real* x, const Real* y, const Real* z, Int nt,               \
+                                   const Int* triangles, Real* triarea) noexcept {                           \
+    in_default_floating_point([&] { triangle_areas(n, Nodes<Real>{x, y, z}, nt, triangles, triarea); });     \
+  }                                                                                                          \
   void pstripack_crlist_##suffix(Int n, Int ncol, const Real* x, const Real* y, const Real* z,               \
                                  const Int* list, const Int* lend, Int* lptr, Int* lnew, Int* ltri,          \
                                  Int* listc, Int* nb, Real* xc, Real* yc, Real* zc, Real* rc,                \
@@ -165,53 +163,44 @@ extern "C" {
       return 0;                                                                                              \
     });                                                                                                      \
     return nearest;                                                                                          \
+  }                                                                                                          \
+  void pstripack_getnp_##suffix(const Real* x, const Real* y, const Real* z, const Int* list,                \
+                                const Int* lptr, const Int* lend, Int l, Int* npts, Real* df,                \
+                                Int* ier) noexcept {                                                         \
+    const ListsView<Int> lists = view(Int{0}, list, lptr, lend);                                             \
+    *ier = caught("GETNP", 0, [&] { return next_nearest(lists, Nodes<Real>{x, y, z}, l, npts, *df); });      \
+  }                                                                                                          \
+  Int pstripack_inside_##suffix(const Real* p, Int lv, const Real* xv, const Real* yv, const Real* zv,       \
+                                Int nv, const Int* listv, Int* ier) noexcept {                               \
+    bool result = false;                                                                                     \
+    *ier = code_of("INSIDE", 0, [&] {                                                                        \
+      return inside(vector(p), lv, Nodes<Real>{xv, yv, zv}, nv, listv, result);                              \
+    });                                                                                                      \
+    return result ? 1 : 0;                                                                                   \
+  }                                                                                                          \
+  void pstripack_intrsc_##suffix(const Real* p1, const Real* p2, const Real* cn, Real* p,                    \
+                                 Int* ier) noexcept {                                                        \
+    Vector<Real> point;                                                                                      \
+    *ier = code_of("INTRSC", 0, [&] { return intersection(vector(p1), vector(p2), vector(cn), point); });    \
+    if (*ier != 0) return;                                                                                   \
+    p[0] = point.x;                                                                                          \
+    p[1] = point.y;                                                                                          \
+    p[2] = point.z;                                                                                          \
+  }                                                                                                          \
+  Int pstripack_jrand_##suffix(Int n, Int* ix, Int* iy, Int* iz) noexcept {                                  \
+    Seeds<Int> seeds{*ix, *iy, *iz};                                                                         \
+    const Int drawn = in_default_floating_point([&] { return original_rules().random<Real>(n, seeds); });    \
+    *ix = seeds.x;                                                                                           \
+    *iy = seeds.y;                                                                                           \
+    *iz = seeds.z;                                                                                           \
+    return drawn;                                                                                            \
   }
 
 LIST_CALLS(int32_t, i4)
-SPHERE_CALLS(float, int32_t, r4)
-SPHERE_CALLS(double, int32_t, r8)
-MESH_CALLS(float, int32_t, r4)
-MESH_CALLS(double, int32_t, r8)
 LIST_CALLS(int64_t, i8)
-SPHERE_CALLS(double, int64_t, i8)
-MESH_CALLS(double, int64_t, i8)
-
-#define QUERY_CALLS(Real, Int, suffix)                                                                    \
-  void pstripack_getnp_##suffix(const Real* x, const Real* y, const Real* z, const Int* list,             \
-                                const Int* lptr, const Int* lend, Int l, Int* npts, Real* df,             \
-                                Int* ier) noexcept {                                                      \
-    const ListsView<Int> lists = view(Int{0}, list, lptr, lend);                                          \
-    *ier = caught("GETNP", 0, [&] { return next_nearest(lists, Nodes<Real>{x, y, z}, l, npts, *df); });   \
-  }                                                                                                       \
-  Int pstripack_inside_##suffix(const Real* p, Int lv, const Real* xv, const Real* yv, const Real* zv,    \
-                                Int nv, const Int* listv, Int* ier) noexcept {                            \
-    bool result = false;                                                                                  \
-    *ier = code_of("INSIDE", 0, [&] {                                                                     \
-      return inside(vector(p), lv, Nodes<Real>{xv, yv, zv}, nv, listv, result);                           \
-    });                                                                                                   \
-    return result ? 1 : 0;                                                                                \
-  }                                                                                                       \
-  void pstripack_intrsc_##suffix(const Real* p1, const Real* p2, const Real* cn, Real* p,                 \
-                                 Int* ier) noexcept {                                                     \
-    Vector<Real> point;                                                                                   \
-    *ier = code_of("INTRSC", 0, [&] { return intersection(vector(p1), vector(p2), vector(cn), point); }); \
-    if (*ier != 0) return;                                                                                \
-    p[0] = point.x;                                                                                       \
-    p[1] = point.y;                                                                                       \
-    p[2] = point.z;                                                                                       \
-  }                                                                                                       \
-  Int pstripack_jrand_##suffix(Int n, Int* ix, Int* iy, Int* iz) noexcept {                               \
-    Seeds<Int> seeds{*ix, *iy, *iz};                                                                      \
-    const Int drawn = in_default_floating_point([&] { return original_rules().random<Real>(n, seeds); }); \
-    *ix = seeds.x;                                                                                        \
-    *iy = seeds.y;                                                                                        \
-    *iz = seeds.z;                                                                                        \
-    return drawn;                                                                                         \
-  }
-
-QUERY_CALLS(float, int32_t, r4)
-QUERY_CALLS(double, int32_t, r8)
-QUERY_CALLS(double, int64_t, i8)
+NODE_CALLS(float, int32_t, r4)
+NODE_CALLS(double, int32_t, r8)
+NODE_CALLS(double, int64_t, i8)
 
 }  // extern "C"
 #pragma GCC visibility pop
