@@ -103,21 +103,6 @@ void triangulate_around(const std::vector<std::size_t>& closest, const Point* no
     std::for_each_n(around(v), kAround, [&](const Point& p) { some.add(p); });
     some.triangulate();
   }
-  constexpr std::size_t kClosest = 4, kNear = 12;
-  const std::size_t looked_at = std::min(closest.size(), kClosest);
-  double reach[kClosest];  // squared radius that contains at least kNear nodes
-  std::vector<SmallSet> near(looked_at, SmallSet(nodes, corners));
-  for (std::size_t k = 0; k < looked_at; ++k) {
-    double square[kAround];
-    std::transform(around(closest[k]), around(closest[k]) + kAround, square,
-                   [&](const Point& p) { return square_between(nodes[closest[k]], p); });
-    std::nth_element(square, square + kNear, square + kAround);
-    reach[k] = square[kNear];
-  }
-  for (std::size_t v = 0; v < n; ++v)
-    for (std::size_t k = 0; k < looked_at; ++k)
-      if (square_between(nodes[closest[k]], nodes[v]) <= reach[k]) near[k].add(nodes[v]);
-  for (SmallSet& some : near) some.triangulate();
 }
 
 }  // namespace pstripack

@@ -14,9 +14,9 @@ namespace pstripack {
 /// nodes first..n-1 follow a curve. Throws std::bad_alloc.
 std::vector<std::size_t> closest_nodes(const Point* nodes, std::size_t n, std::size_t first);
 
-/// Triangulates small sets around these nodes: first the nodes around them along the curve; then, for the
-/// four closest, all nodes near them. The four corners of the whole are added, because the nodes around may
-/// lie on one great circle. Throws HiddenNode if a set has one, std::bad_alloc.
+/// Triangulates, for each of these nodes, the nodes around it along the curve. The four corners of the whole
+/// are added, because the nodes around may lie on one great circle. Throws HiddenNode if a set has one,
+/// std::bad_alloc.
 void triangulate_around(const std::vector<std::size_t>& closest, const Point* nodes, std::size_t n,
                         std::size_t first, const HullNode (&corners)[4]);
 
