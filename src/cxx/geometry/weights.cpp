@@ -141,16 +141,16 @@ struct Normal {
   }
 };
 
-/// A height and the bound of its error.
+/// A height or an area, and the bound of its error.
 template <class T>
-struct Height {
+struct Bounded {
   T value, error;
 };
 
 /// The height of three nodes, seen from a fourth; ab, bc, ca are the areas between the sides.
 template <class T>
-Height<T> height(const Side<T>& a, const Side<T>& b, const Side<T>& c, const T& ab, const T& bc,
-                 const T& ca) {
+Bounded<T> height(const Side<T>& a, const Side<T>& b, const Side<T>& c, const T& ab, const T& bc,
+                  const T& ca) {
   const double error = 2 * std::max({a.error, b.error, c.error}) + 7 * Arithmetic<T>::kUnit;
   return {number<T>(0.5) * (a.square * bc + b.square * ca + c.square * ab),
           number<T>(error) * (a.size * b.size * c.size) * (a.size + b.size + c.size)};
@@ -162,10 +162,6 @@ class Star {
   using A = Arithmetic<T>;
 
  public:
-  struct Area {
-    T value, error;
-  };
-
   void see(const Direction& place, const Cavity& cavity) {
     const typename A::Corner p = A::corner(place);
     const Vector3<T> position = A::position(p);
@@ -202,14 +198,14 @@ class Star {
       const typename A::Corner from = A::corner(*nodes[q].direction);
       const Vector3<T> at_q = A::position(from);
       const Side<T> to_y = seen(between(y, q)), to_t = seen(between(t, q)), to_x = seen(between(x, q));
-      const Height<T> of_arc = height(to_y, to_t, to_x, dot(at_q, cross(to_y.d, to_t.d)),
-                                      dot(at_q, cross(to_t.d, to_x.d)), dot(at_q, cross(to_x.d, to_y.d)));
+      const Bounded<T> of_arc = height(to_y, to_t, to_x, dot(at_q, cross(to_y.d, to_t.d)),
+                                       dot(at_q, cross(to_t.d, to_x.d)), dot(at_q, cross(to_x.d, to_y.d)));
       const Normal<T>&n = triangle_[left].normal, &m = triangle_[right].normal;
       const T area_qt = area(side_[q], side_[t]), cosine = dot(n.unit, m.unit);
       const auto see_node = [&](std::uint32_t node, std::uint32_t other, const T& area_of_arc) {
         const std::uint32_t next = nodes[node].next;
-        const Height<T> of_node = height(side_[node], side_[next], side_[other], area_[node],
-                                         area(side_[next], side_[other]), area_of_arc);
+        const Bounded<T> of_node = height(side_[node], side_[next], side_[other], area_[node],
+                                          area(side_[next], side_[other]), area_of_arc);
         add(of_node, of_arc, normal_[node], n, m, cosine, lost_[node]);
       };
       see_node(q, t, number<T>(-1) * area_qt);
@@ -219,7 +215,7 @@ class Star {
       const std::uint32_t q = nodes[r].next, s = nodes[q].next;
       const auto& [normal, of_triangle] = triangle_[nodes[r].triangle];
       const bool is_same = nodes[q].triangle == nodes[r].triangle;  // q is in this triangle only
-      const Height<T> of_node =
+      const Bounded<T> of_node =
           is_same ? of_triangle
                   : height(side_[q], side_[s], side_[r], area_[q], area(side_[s], side_[r]), area_[r]);
       add(of_node, of_triangle, normal_[q], normal, normal_[r], dot(normal.unit, normal_[r].unit), lost_[q]);
@@ -227,7 +223,7 @@ class Star {
   }
 
   /// The area that node j loses, and the bound of its error.
-  const Area& lost(std::size_t j) const { return lost_[j]; }
+  const Bounded<T>& lost(std::size_t j) const { return lost_[j]; }
   /// False if a side has so few digits that the bounds do not hold.
   bool is_accurate() const { return least_accurate_ <= 0x1p-51; }
 
@@ -239,8 +235,8 @@ class Star {
   }
 
   /// Adds the area of the triangle with the corners n0, n, m, where det(n0, n, m) = x y. `cosine` is n.m.
-  static void add(const Height<T>& x, const Height<T>& y, const Normal<T>& n0, const Normal<T>& n,
-                  const Normal<T>& m, const T& cosine, Area& area) {
+  static void add(const Bounded<T>& x, const Bounded<T>& y, const Normal<T>& n0, const Normal<T>& n,
+                  const Normal<T>& m, const T& cosine, Bounded<T>& area) {
     const T lengths = n0.inverse * n.inverse * m.inverse;
     const T numerator = x.value * y.value * lengths,
             denominator = (number<T>(1) + cosine) + (dot(n0.unit, n.unit) + dot(n0.unit, m.unit));
@@ -269,13 +265,13 @@ class Star {
 
   struct Triangle {
     Normal<T> normal;
-    Height<T> height;  // of the place above it
+    Bounded<T> height;  // of the place above it
   };
   std::vector<Side<T>> side_;      // from the place to the nodes
   std::vector<Normal<T>> normal_;  // of place, node j, next node
   std::vector<T> area_;            // of the same
   std::vector<Triangle> triangle_;
-  std::vector<Area> lost_;
+  std::vector<Bounded<T>> lost_;
   double least_accurate_ = 0;
 };
 
