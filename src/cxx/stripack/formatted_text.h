@@ -38,18 +38,11 @@ class FormattedText {
   /// Iw
   template <class Int>
   FormattedText& integer(Int value, int width) {
-    std::array<char, 24> digits;
-    return justified(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr,
-                     width);
+    return number(width, value);
   }
   /// Fw.d
   FormattedText& fixed(double value, int width, int decimals) {
-    std::array<char, 400> digits;
-    return justified(
-        digits.data(),
-        std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed, decimals)
-            .ptr,
-        width);
+    return number(width, value, std::chars_format::fixed, decimals);
   }
   /// Ew.6: 0.123456E+00, with three digits in the exponent 0.123456+100.
   FormattedText& exponential(double value, int width) {
@@ -81,8 +74,12 @@ class FormattedText {
     text_ += field;
     return *this;
   }
-  FormattedText& justified(const char* begin, const char* end, int width) {
-    return justified({begin, static_cast<std::size_t>(end - begin)}, width);
+  /// A value as std::to_chars writes it.
+  template <class... Value>
+  FormattedText& number(int width, Value... value) {
+    std::array<char, 400> digits;
+    const char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), value...).ptr;
+    return justified({digits.data(), static_cast<std::size_t>(end - digits.data())}, width);
   }
 
   std::string text_;
