@@ -21,6 +21,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -211,7 +212,13 @@ void note_signals() {
   signal(SIGCHLD, SIG_DFL);
 }
 
-bool is_running(pid_t process) { return kill(process, 0) == 0 || errno != ESRCH; }
+/// False also for a process that has ended and that nobody waits for.
+bool is_running(pid_t process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+  std::string status;
+  std::getline(file, status);
+  return !status.empty() && status.find(") Z ") == std::string::npos;
+}
 
 /// The supervisor, until mpirun and the program have ended.
 void supervise(const Arguments& arguments, Descriptor listener, pid_t program) {

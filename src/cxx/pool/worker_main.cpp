@@ -31,7 +31,10 @@ int main() {
   }
   pstripack::Steward steward;
   if (rank == 0 && !steward.connect(pool)) {
-    std::fputs("pstripack-worker: rank 0 is not on the machine of pstripack-run: start that there\n", stderr);
+    std::fputs(
+        "pstripack-worker: rank 0 is not on the machine of pstripack-run: start pstripack-run where rank 0 "
+        "is\n",
+        stderr);
     return 1;
   }
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // where mpirun or its daemon was killed

@@ -223,6 +223,12 @@ kill_model)
   ends_within 10
   [ $code -eq 137 ] || fail "exit code $code"
   [ ! -s job.err ] || fail "stderr is not empty"
+  # The ranks also end if nobody waits for the model.
+  sh -c '"$@" < /dev/null > unwaited.out & exec sleep 60' - "$RUN" -n "$ranks" --oversubscribe -- "$CALLER" calls 5000 1 &
+  job=$!
+  until grep -q '^pool' unwaited.out; do sleep 0.1; done
+  for _ in 1 2 3 4 5 6 7 8 9 10; do [ -z "$(named pstripack-worker)" ] || sleep 0.5; done
+  [ -z "$(named pstripack-worker)" ] || fail "ranks are left"
   ;;
 terminate)
   # The model has the two seconds that it takes to save. TERM_group: as from a terminal; all: as from a batch system, to
