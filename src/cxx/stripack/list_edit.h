@@ -269,20 +269,18 @@ class ListEditor {
   ///          \ | /                     \   /
   ///           io1                       io1
   ///
-  /// Writes nothing before the lists of all four nodes have shown both triangles, and only to slots that held
-  /// one of the four.
+  /// If N is unknown, writes nothing before the lists of all four nodes have shown both triangles, and only
+  /// to slots that held one of the four.
   Int swap(Int in1, Int in2, Int io1, Int io2) const {
-    Int to_io1 = last_slot(in1);
-    const Int to_in2 = find(in1, [&](Int slot) {
-                         if (is_side(slot, io1, io2)) to_io1 = slot;
-                         return entry(slot) == in2;
-                       }).slot;
-    if (neighbour(to_in2) == in2) return 0;
-    const Int to_io2 = find(in2, [&](Int slot) { return is_side(slot, io2, io1); }).slot;
-    if (!is_side(to_io1, io1, io2) || !is_side(to_io2, io2, io1)) throw BrokenLists();
-    const Place of_io2 = between(in2, io2, in1, io1), of_io1 = between(in1, io1, in2, io2);
-    move(io1, of_io2, to_io1, in2);
-    move(io2, of_io1, to_io2, in1);
+    if (known_node() == 0) return swap_in_triangles(in1, in2, io1, io2);
+    if (are_neighbours(in1, in2)) return 0;
+    const auto after = [&](Int node, Int other) {
+      const Int before = slot_of(node, other);
+      return Place{next(before), before};
+    };
+    move(io1, after(io1, in2), slot_of(in1, io1), in2);
+    const Place of_io1 = after(io2, in1);
+    move(io2, of_io1, slot_of(in2, io2), in1);
     return of_io1.slot;
   }
 
@@ -352,6 +350,21 @@ class ListEditor {
     } while (v != i2);
     if (!on_boundary(i2)) throw BrokenLists();
     return count;
+  }
+
+  Int swap_in_triangles(Int in1, Int in2, Int io1, Int io2) const {
+    Int to_io1 = last_slot(in1);
+    const Int to_in2 = find(in1, [&](Int slot) {
+                         if (is_side(slot, io1, io2)) to_io1 = slot;
+                         return entry(slot) == in2;
+                       }).slot;
+    if (neighbour(to_in2) == in2) return 0;
+    const Int to_io2 = find(in2, [&](Int slot) { return is_side(slot, io2, io1); }).slot;
+    if (!is_side(to_io1, io1, io2) || !is_side(to_io2, io2, io1)) throw BrokenLists();
+    const Place of_io2 = between(in2, io2, in1, io1), of_io1 = between(in1, io1, in2, io2);
+    move(io1, of_io2, to_io1, in2);
+    move(io2, of_io1, to_io2, in1);
+    return of_io1.slot;
   }
 
   /// Moves a slot from the list of `node` to another list, after the slot `before`; it then holds c.
