@@ -41,6 +41,7 @@ each_call() {
   run FAULT_COUNT=calls
   is_right FAULT_COUNT
   for rank in 0 1 2; do
+    [ -s calls.$rank ] || fail "rank $rank has not counted its calls"
     call=1
     while [ $call -le "$(cat calls.$rank)" ]; do
       "$@"

@@ -3,7 +3,6 @@
 
 #include <errno.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/system.h"
 
@@ -27,15 +26,6 @@ auto read_once(const Read& read) {
   static const auto value = read();
   errno = error;
   return value;
-}
-
-/// True if NAME=VALUE is a variable that mpirun (Open MPI, Slurm, MPICH, Intel) sets for the ranks it starts.
-inline bool is_from_mpi_launcher(const char* variable) {
-  constexpr const char* kPrefixes[] = {
-      "OMPI_", "ORTE_", "PMIX_", "PMI_", "HYDI_", "MPI_LOCALRANKID=", "MPI_LOCALNRANKS="};
-  for (const char* const prefix : kPrefixes)
-    if (strncmp(variable, prefix, strlen(prefix)) == 0) return true;
-  return false;
 }
 
 }  // namespace pstripack

@@ -36,7 +36,7 @@ extern "C" {
   CODE(PSTRIPACK_OUT_OF_MEMORY, -6, "out of memory")                                                       \
   CODE(PSTRIPACK_RANKS_DISAGREE, -7,                                                                       \
        "the ranks of a collective call disagree in N, in the coordinates, in PSTRIPACK_ORDER, in root, "   \
-       "in values a point, or in what they call")                                                                   \
+       "in values a point, or in what they call")                                                          \
   CODE(PSTRIPACK_BAD_COMM, -8,                                                                             \
        "not a communicator that can be used: null, freed, an inter-communicator, no such rank, or MPI is " \
        "not running")                                                                                      \

@@ -11,7 +11,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <stdexcept>
 #include <vector>
 
@@ -27,10 +29,6 @@ constexpr double kPatience = 10;  // seconds to wait for the end of the log, bey
 
 [[noreturn]] void fail(const std::string& what, int error) {
   throw std::runtime_error(what + ": " + std::strerror(error));
-}
-
-bool starts_with(const char* text, const char* beginning) {
-  return std::strncmp(text, beginning, std::strlen(beginning)) == 0;
 }
 
 /// The program to start: PSTRIPACK_COMPARE; else that beside this library (lib/../bin,
@@ -50,16 +48,26 @@ std::string program() {
   return name;
 }
 
-/// The model's environment without the variables of MPI launchers and of this library, and without
-/// LD_PRELOAD (macOS: DYLD_INSERT_LIBRARIES): the program is not a rank of the model's job.
+/// The model's environment without the variables of MPI launchers (Open MPI, Slurm, MPICH, Intel MPI) and of
+/// this library, and without LD_PRELOAD (macOS: DYLD_INSERT_LIBRARIES): the program is not a rank of the
+/// model's job.
 std::vector<char*> environment_of_program() {
+  constexpr const char* kOfModel[] = {"OMPI_",
+                                      "ORTE_",
+                                      "PMIX_",
+                                      "PMI_",
+                                      "HYDI_",
+                                      "MPI_LOCALRANKID=",
+                                      "MPI_LOCALNRANKS=",
+                                      "PSTRIPACK_",
+                                      "LD_PRELOAD=",
+                                      "DYLD_INSERT_LIBRARIES="};
   std::vector<char*> variables;
-  for (char** variable = all_environment_variables(); *variable != nullptr; ++variable) {
-    const bool is_of_model = is_from_mpi_launcher(*variable) || starts_with(*variable, "PSTRIPACK_") ||
-                             starts_with(*variable, "LD_PRELOAD=") ||
-                             starts_with(*variable, "DYLD_INSERT_LIBRARIES=");
-    if (!is_of_model) variables.push_back(*variable);
-  }
+  for (char** variable = all_environment_variables(); *variable != nullptr; ++variable)
+    if (std::none_of(std::begin(kOfModel), std::end(kOfModel), [variable](const char* beginning) {
+          return std::strncmp(*variable, beginning, std::strlen(beginning)) == 0;
+        }))
+      variables.push_back(*variable);
   variables.push_back(nullptr);
   return variables;
 }
