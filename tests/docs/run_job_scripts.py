@@ -41,7 +41,7 @@ def main():
     scripts = re.findall(r"^```sh\n(#!.*?)^```", section, re.MULTILINE | re.DOTALL)
     assert len(scripts) == len(SETTINGS), f"{len(scripts)} job scripts"
     for system, whole in zip(SETTINGS, scripts):
-        last_lines = re.findall(r"^(.*\S) +# (threads|pool|comm, distributed)\n", whole, re.MULTILINE)
+        last_lines = re.findall(r"^(.*\S) +# (threads|pool|comm, distributed, own calls)\n", whole, re.MULTILINE)
         assert len(last_lines) == 3, f"{system}: {len(last_lines)} last lines"
         head = whole[:whole.index(last_lines[0][0])]
         for command, mode in last_lines:
