@@ -241,42 +241,6 @@ TEST(Differential, TRMESH_steps) {
   expect_equal(result, 60);
 }
 
-/// Checks that insertions which were given up early would have had a wrong result. Returns their number.
-template <class Real>
-int times_given_up() {
-  int times = 0;
-  for (const char* family : {"random", "latlon", "icosahedral", "cubed-sphere", "healpix", "reduced-gaussian",
-                             "fibonacci", "tripolar", "hemisphere", "variable", "clusters", "box"})
-    for (const std::size_t n : {2000, 6000, 20000})
-      for (const bool is_shuffled : {false, true}) {
-        std::vector<Point> points = point_sets::make(family, n);
-        if (is_shuffled) point_sets::shuffle(points, 1);
-        std::vector<Real> x, y, z;
-        for (Point& p : points) {
-          p = {static_cast<Real>(p.x), static_cast<Real>(p.y), static_cast<Real>(p.z)};
-          x.push_back(static_cast<Real>(p.x));
-          y.push_back(static_cast<Real>(p.y));
-          z.push_back(static_cast<Real>(p.z));
-        }
-        const auto inserted = [&](Hopeless hopeless) {
-          return insert_in_order(static_cast<int>(x.size()), x.data(), y.data(), z.data(), kNgmath, hopeless);
-        };
-        if (inserted(Hopeless::ends).outcome.end != InsertionEnd::hopeless) continue;
-        ++times;
-        const InsertedNodes<int> at_the_end = inserted(Hopeless::goes_on);
-        if (at_the_end.outcome.end == InsertionEnd::complete) {
-          EXPECT_FALSE(is_valid(points.data(), at_the_end.view(), Lengths::automatic, Ties::either_way))
-              << family << " " << n;
-        }
-      }
-  std::printf("%d times\n", times);
-  return times;
-}
-TEST(Differential, TRMESH_given_up) {
-  EXPECT_GT(times_given_up<double>(), 8);
-  EXPECT_GT(times_given_up<float>(), 4);
-}
-
 TEST(Differential, TRMESH_reference) {
   const Result result = compare_all(node_sets(), [](const NodeSet& nodes) -> std::string {
     ReferenceTrmesh<double> reference(nodes.x, nodes.y, nodes.z, {4, true});

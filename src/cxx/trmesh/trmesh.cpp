@@ -148,7 +148,6 @@ TrmeshResult cold(const TrmeshCall& call, CallWay* way, ParallelCost* cost, Engi
 
 /// How good the lists are that the insertion has made.
 OriginalOrder order_of(const NodeArrays& given, const InsertedNodes<std::int32_t>& inserted, bool bitwise) {
-  if (inserted.outcome.end == InsertionEnd::hopeless) return OriginalOrder::wrong;
   BlockArray<Point> nodes(inserted.nodes);
   given.copy(0, nodes.size(), nodes.data());
   if (left(nodes[0], nodes[1], nodes[2]) != 0 &&
@@ -171,9 +170,8 @@ TrmeshResult lists_in_original_order(const TrmeshCall& call, ParallelCost* cost)
   InsertedNodes<std::int32_t> inserted;
   {
     const PhaseTimer timer(cost, ParallelCost::triangulate);
-    inserted = call.nodes.visit_arrays([&](const auto* x, const auto* y, const auto* z) {
-      return insert_in_order(call.n, x, y, z, rules, rules.bitwise ? Hopeless::goes_on : Hopeless::ends);
-    });
+    inserted = call.nodes.visit_arrays(
+        [&](const auto* x, const auto* y, const auto* z) { return insert_in_order(call.n, x, y, z, rules); });
   }
   const auto [end, node, other] = inserted.outcome;
   if (end == InsertionEnd::collinear) return {0, 0, 0, OriginalOrder::collinear, node};

@@ -1,10 +1,7 @@
 #include "stripack/original/original_order.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
-#include "geometry/predicates.h"
 #include "stripack/original/insertion_lists.h"
 #include "stripack/random.h"
 #include "stripack/trfind_walk.h"
@@ -22,22 +19,17 @@ class Insertion {
     for (Int k = 1; k <= n; ++k) lists_.place(k, nodes[k]);
   }
 
-  InsertionOutcome insert_all(Hopeless hopeless) {
+  InsertionOutcome insert_all() {
     const Real d = side(lists_[1], lists_[2], lists_[3]);
     if (d == 0) return {InsertionEnd::collinear, 3};
     lists_.start(d > 0);
 
     WaitingNodes<Real, Int> waiting(n_, lists_);
-    std::int64_t next_look = hopeless == Hopeless::ends ? 1000 : n_;
     for (Int k = 4; k <= n_; ++k) {
       prefetch(k, waiting);
       if (const InsertionOutcome outcome = insert(k, waiting.near(k)); outcome.end != InsertionEnd::complete)
         return outcome;
       waiting.compare_with(k);
-      if (k == next_look && k < n_) {
-        if (is_hopeless()) return {InsertionEnd::hopeless, k};
-        next_look *= 8;
-      }
     }
     return {};
   }
@@ -86,54 +78,6 @@ class Insertion {
     return lists_.restore_delaunay() ? InsertionOutcome{} : InsertionOutcome{InsertionEnd::endless, k};
   }
 
-  // ---- is the triangulation already wrong for good? (usual for grids) ----
-
-  Point point(Int node) const { return as_point(lists_[node]); }
-
-  /// True if a wrong arc is found that will stay. The four nodes of a grid cell are cocircular up to
-  /// rounding, so rounded tests choose the wrong diagonal in some cells.
-  bool is_hopeless() const {
-    int tries = 20;
-    for (Int a = 1; a <= lists_.size(); ++a) {
-      const Int last = lists_.last_slot(a);
-      Int slot = last;
-      do {
-        const Int before = lists_.neighbour(slot);
-        slot = lists_.next(slot);
-        const Int b = lists_.neighbour(slot), c = lists_.neighbour(lists_.next(slot));
-        const bool has_two_sides = lists_.entry(last) > 0 || (slot != last && slot != lists_.next(last));
-        if (a > b || !has_two_sides || orientation(point(a), point(b), point(c), point(before)) <= 0)
-          continue;
-        if (is_lasting_fault(a, b, c, before)) return true;
-        if (--tries == 0) return false;
-      } while (slot != last);
-    }
-    return false;
-  }
-
-  /// True if the arc a-b of the triangles (a,b,c) and (b,a,d) is wrong by exact signs, and will stay. It
-  /// stays if all other nodes are so far outside the circumscribed caps of both triangles that rounded tests
-  /// agree: then no search ends in these triangles, and no swap begins there.
-  bool is_lasting_fault(Int a, Int b, Int c, Int d) const {
-    return orientation_of_directions(point(a), point(b), point(c), point(d)) > 0 && stays(a, b, c, d) &&
-           stays(b, a, d, c);
-  }
-  bool stays(Int a, Int b, Int c, Int d) const {
-    const Point p = point(a), e = minus(point(b), p), f = minus(point(c), p), normal = cross(e, f);
-    // Each test is a determinant of three differences from a corner of the triangle. Two of them are no
-    // longer than its sides, so the permanent is at most 6 side^2 reach, and the error 9u of it
-    // (predicates.cpp). Four times that leaves room for our own rounding.
-    constexpr double u = std::numeric_limits<Real>::epsilon() / 2;
-    const double side_2 = 2 * (dot(e, e) + dot(f, f)), side = std::sqrt(side_2);
-    for (Int i = 1; i <= n_; ++i) {
-      if (i == a || i == b || i == c || i == d) continue;
-      const Point g = minus(point(i), p);
-      const double reach = std::sqrt(dot(g, g)) + side;
-      if (!(dot(normal, g) < -4 * 9 * u * 6 * side_2 * reach)) return false;
-    }
-    return true;
-  }
-
   const Int n_;
   const OriginalRules& rules_;
   InsertionLists<Real, Int> lists_;
@@ -143,10 +87,10 @@ class Insertion {
 
 template <class Real, class Int>
 InsertedNodes<Int> insert_in_order(Int n, const Real* x, const Real* y, const Real* z,
-                                   const OriginalRules& rules, Hopeless hopeless) {
+                                   const OriginalRules& rules) {
   Insertion<Real, Int> insertion(n, x, y, z, rules);
   InsertedNodes<Int> result;
-  result.outcome = insertion.insert_all(hopeless);
+  result.outcome = insertion.insert_all();
   const InsertionEnd end = result.outcome.end;
   if (end == InsertionEnd::complete || end == InsertionEnd::coincident) insertion.write(result);
   return result;
@@ -154,7 +98,7 @@ InsertedNodes<Int> insert_in_order(Int n, const Real* x, const Real* y, const Re
 
 #define PSTRIPACK_ORIGINAL_ORDER(Real, Int)                                               \
   template InsertedNodes<Int> insert_in_order(Int, const Real*, const Real*, const Real*, \
-                                              const OriginalRules&, Hopeless);
+                                              const OriginalRules&);
 PSTRIPACK_ORIGINAL_ORDER(float, std::int32_t)
 PSTRIPACK_ORIGINAL_ORDER(double, std::int32_t)
 

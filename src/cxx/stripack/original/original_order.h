@@ -14,8 +14,7 @@ enum class InsertionEnd {
   complete,    ///< all nodes are inserted
   coincident,  ///< `node` coincides with `other`: nodes 1..node-1 are inserted
   collinear,   ///< the original's IER = -2: by its tests `node` is collinear with every visible boundary edge
-  endless,     ///< the original's search for `node`, or the swaps around it, do not end
-  hopeless     ///< after nodes 1..`node` an arc is not locally Delaunay and will stay
+  endless      ///< the original's search for `node`, or the swaps around it, do not end
 };
 
 struct InsertionOutcome {
@@ -36,14 +35,11 @@ struct InsertedNodes {
   ListsView<Int> view() const { return {nodes, list.data(), lptr.data(), lend.data(), lnew}; }
 };
 
-/// What to do with a triangulation that cannot become correct.
-enum class Hopeless { goes_on, ends };
-
 /// Renka's TRMESH (ACM TOMS 23 (1997), Algorithm 772): inserts node by node, with its rounded tests, so the
 /// result may be wrong. n >= 3. Runs on one thread and uses its seeds_of_thread; O(n) memory. Throws
 /// std::bad_alloc.
 template <class Real, class Int>
 InsertedNodes<Int> insert_in_order(Int n, const Real* x, const Real* y, const Real* z,
-                                   const OriginalRules& rules, Hopeless hopeless = Hopeless::goes_on);
+                                   const OriginalRules& rules);
 
 }  // namespace pstripack
