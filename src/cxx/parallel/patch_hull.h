@@ -122,18 +122,6 @@ class PatchHull {
   template <class Visit>
   void for_each_face_at_border(std::size_t first, const Visit& visit) const {
     const auto n = static_cast<HullNode>(growing_->node_count());
-    // Where many nodes are others', one pass over all faces takes less time than walks around them.
-    if (constexpr std::size_t kMany = 64; first == 0 && kMany * (n - own_) > n) {
-      std::vector<std::uint8_t> own(n);
-      for (HullNode v = 0; v < n; ++v) own[v] = is_own(v);
-      const auto faces = static_cast<HullFace>(growing_->face_count());
-      for (HullFace t = 0; t < faces; ++t) {
-        const auto& corner = arrays_.faces[t].vertex;
-        const int count = own[corner[0]] + own[corner[1]] + own[corner[2]];
-        if (count == 1 || count == 2) visit(t);
-      }
-      return;
-    }
     for (auto v = static_cast<HullNode>(first); v < n; ++v) {
       if (is_own(v)) continue;
       for_each_face_at(v, [&](HullFace t, std::uint32_t) {
