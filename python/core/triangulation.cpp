@@ -1,11 +1,9 @@
 #include "triangulation.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <new>
 #include <numeric>
 #include <sstream>
@@ -13,7 +11,7 @@
 #include "base/parallel_for.h"
 #include "base/workspace.h"
 #include "capi/pstripack.h"
-#include "files/mesh.h"
+#include "files/near_nodes.h"
 #include "geometry/measures.h"
 #include "geometry/predicates.h"
 #include "lists/limits.h"
@@ -33,53 +31,15 @@ using pstripack::threads_for;
 using Cause = NoTriangulation::Cause;
 using Reader = pstripack::ListReader<std::int32_t>;
 
-/// Three nodes that are not on one great circle, chosen far from each other.
-template <class Node>
-std::vector<std::size_t> three_corners(std::size_t n, const Node& node) {
-  const auto farthest = [&](const auto& measure) {
-    std::size_t best = 0;
-    double most = -1;
-    for (std::size_t i = 0; i < n; ++i)
-      if (const double m = measure(unit(node(i))); m > most) best = i, most = m;
-    return best;
-  };
-  const Point a = unit(node(0));
-  const std::size_t second = farthest([&](const Point& p) {
-    const Point c = cross(a, p);
-    return dot(c, c);
-  });
-  const Point normal = cross(a, unit(node(second)));
-  std::size_t third = farthest([&](const Point& p) { return std::fabs(dot(normal, p)); });
-  const auto spans = [&](std::size_t i) { return pstripack::left(node(0), node(second), node(i)) != 0; };
-  for (std::size_t i = 0; i < n && !spans(third); ++i)
-    if (spans(i)) third = i;
-  if (!spans(third))
-    throw NoTriangulation(Cause::collinear, "all nodes lie on one great circle: they have no triangulation");
-  return {0, second, third};
-}
-
-/// All pairs of a node and the first node in the same direction, in increasing order of the former.
-NoTriangulation coincidence(const Buffer<Point>& nodes) {
-  pstripack::Workspace workspace(pstripack::workspace_bytes(nodes.size()));
-  const pstripack::Hull hull = pstripack::delaunay(nodes.data(), nodes.size(), workspace);
-  std::map<pstripack::index_t, pstripack::index_t>
-      first;  // key: the node of each direction that the hull has
-  for (const auto& [in, out] : hull.coincident)
-    first[in] = std::min({first.try_emplace(in, in).first->second, in, out});
-  std::vector<std::array<std::int64_t, 2>> pairs;  // the later node, the first one
-  const auto add = [&](pstripack::index_t in, pstripack::index_t node) {
-    if (node != first[in]) pairs.push_back({node, first[in]});
-  };
-  for (const auto& [in, out] : hull.coincident) add(in, out);
-  for (const auto& [in, least] : first) add(in, in);
-  std::sort(pairs.begin(), pairs.end());
+/// `pairs`: of a node and the first one in its direction.
+NoTriangulation coincidence(const std::vector<files::Duplicate>& pairs) {
   constexpr std::size_t kTold = 5;
   std::vector<std::int64_t> both;
   std::string told;
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    both.insert(both.end(), {pairs[k][1], pairs[k][0]});
-    if (k < kTold)
-      told += (k > 0 ? ", " : "") + std::to_string(pairs[k][1]) + " and " + std::to_string(pairs[k][0]);
+  for (const auto& [node, first] : pairs) {
+    if (both.size() < 2 * kTold)
+      told += (both.empty() ? "" : ", ") + std::to_string(first) + " and " + std::to_string(node);
+    both.insert(both.end(), {static_cast<std::int64_t>(first), static_cast<std::int64_t>(node)});
   }
   if (pairs.size() == 1)
     told = "nodes " + told + " (counted from 0) point in the same direction: remove one of them";
@@ -89,28 +49,6 @@ NoTriangulation coincidence(const Buffer<Point>& nodes) {
            " (counted from 0): remove them, or join them by duplicates='first' or 'mean'";
   return {Cause::coincident, told, std::move(both)};
 }
-
-struct Coincidence {};
-
-/// Unwritten lists for n nodes.
-struct Lists {
-  Buffer<std::int32_t> list, lptr, lend;
-  std::int32_t lnew = 0;
-
-  explicit Lists(std::size_t n) : list(6 * n - 12), lptr(6 * n - 12), lend(n) {}
-
-  /// Calls TRMESH. False if it returns -2. Throws Coincidence and std::bad_alloc.
-  bool triangulate(const double* x, const double* y, const double* z) {
-    std::fill(lend.begin(), lend.end(), 0);
-    const auto n = static_cast<std::int32_t>(lend.size());
-    const std::int32_t ier = pstripack_delaunay(n, x, y, z, list.data(), lptr.data(), lend.data(), &lnew);
-    if (ier == PSTRIPACK_COLLINEAR) return false;
-    if (ier == PSTRIPACK_OUT_OF_MEMORY) throw std::bad_alloc();
-    if (ier < 0) throw std::runtime_error(pstripack_strerror(ier));
-    if (ier > 0) throw Coincidence();
-    return true;
-  }
-};
 
 }  // namespace
 
@@ -147,11 +85,7 @@ Triangulation::Triangulation(const Coordinates& given) : n_(given.n) {
     throw NoTriangulation(Cause::too_many,
                           std::to_string(n_) + " nodes are too many: at most " + std::to_string(most));
   read(given);
-  try {
-    triangulate();
-  } catch (const Coincidence&) {
-    throw coincidence(Exact(*this).points);
-  }
+  triangulate();
   make_directions();
   interpolation_.emplace(view());
 }
@@ -183,58 +117,26 @@ void Triangulation::read(const Coordinates& given) {
 }
 
 void Triangulation::triangulate() {
-  Lists lists(n_);
-  if (!lists.triangulate(given_[0], given_[1], given_[2])) return triangulate_in_another_order();
-  list_ = std::move(lists.list), lptr_ = std::move(lists.lptr), lend_ = std::move(lists.lend);
-  lnew_ = lists.lnew;
-}
-
-/// TRMESH refuses nodes whose first three lie on one great circle: triangulates with other nodes in front and
-/// converts the lists to the canonical ones of the given order.
-void Triangulation::triangulate_in_another_order() {
-  std::vector<std::int32_t> order(n_),
-      place(n_);  // order[i]: the node at place i; place: the inverse of order
-  std::iota(order.begin(), order.end(), 0);
-  const std::vector<std::size_t> corners = three_corners(n_, [this](std::size_t i) { return given(i); });
-  for (std::size_t k = 0; k < 3; ++k)
-    std::swap(order[k], *std::find(order.begin(), order.end(), static_cast<std::int32_t>(corners[k])));
-  Buffer<double> columns(3 * n_);
-  for (std::size_t i = 0; i < n_; ++i) {
-    const auto node = static_cast<std::size_t>(order[i]);
-    place[node] = static_cast<std::int32_t>(i);
-    for (std::size_t axis = 0; axis < 3; ++axis) columns[axis * n_ + i] = given_[axis][node];
+  list_ = Buffer<std::int32_t>(6 * n_ - 12), lptr_ = Buffer<std::int32_t>(6 * n_ - 12);
+  lend_ = Buffer<std::int32_t>(n_);
+  std::fill(lend_.begin(), lend_.end(), 0);
+  const std::int32_t ier = pstripack_delaunay(static_cast<std::int32_t>(n_), given_[0], given_[1], given_[2],
+                                              list_.data(), lptr_.data(), lend_.data(), &lnew_);
+  if (ier == 0) return;
+  if (ier == PSTRIPACK_OUT_OF_MEMORY) throw std::bad_alloc();
+  if (ier < 0 && ier != PSTRIPACK_COLLINEAR) throw std::runtime_error(pstripack_strerror(ier));
+  // TRMESH refuses nodes whose first three lie on one great circle, and names two nodes that coincide. The
+  // kernel takes any three, and names all.
+  const Exact nodes(*this);
+  pstripack::Workspace workspace(pstripack::workspace_bytes(n_));
+  try {
+    const pstripack::Hull hull =
+        pstripack::delaunay(nodes.points.data(), n_, workspace, pstripack::Lengths::directions);
+    if (!hull.coincident.empty()) throw coincidence(files::coincident_nodes(hull));
+    lnew_ = pstripack::write_lists(hull, list_.data(), lptr_.data(), lend_.data(), workspace);
+  } catch (const std::domain_error&) {
+    throw NoTriangulation(Cause::collinear, "all nodes lie on one great circle: they have no triangulation");
   }
-  Lists other(n_);
-  if (!other.triangulate(columns.data(), columns.data() + n_, columns.data() + 2 * n_))
-    throw std::runtime_error(pstripack_strerror(PSTRIPACK_COLLINEAR));
-
-  const Reader reader({n_, other.list.data(), other.lptr.data(), other.lend.data(), other.lnew});
-  Lists lists(n_);
-  std::vector<std::int32_t> ring;
-  std::int32_t slot = 0;  // number of written slots
-  for (std::size_t node = 0; node < n_; ++node) {
-    const std::int32_t there = place[node] + 1, last = reader.last_slot(there);
-    ring.clear();
-    std::int32_t from = last;
-    do {
-      from = reader.next(from);
-      ring.push_back(order[static_cast<std::size_t>(reader.neighbour(from)) - 1] + 1);
-    } while (from != last);
-    if (reader.on_boundary(there))
-      ring.back() = -ring.back();
-    else
-      std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
-    const std::int32_t first = slot + 1;
-    for (const std::int32_t neighbour : ring) {
-      lists.list[static_cast<std::size_t>(slot)] = neighbour;
-      lists.lptr[static_cast<std::size_t>(slot)] = slot + 2;
-      ++slot;
-    }
-    lists.lptr[static_cast<std::size_t>(slot) - 1] = first;
-    lists.lend[node] = slot;
-  }
-  list_ = std::move(lists.list), lptr_ = std::move(lists.lptr), lend_ = std::move(lists.lend);
-  lnew_ = slot + 1;
 }
 
 void Triangulation::make_directions() {

@@ -156,7 +156,6 @@ class Triangulation {
   const Exact& exact() const;
   void read(const Coordinates& given);
   void triangulate();
-  void triangulate_in_another_order();
   void make_directions();
   Point given(std::size_t i) const { return {given_[0][i], given_[1][i], given_[2][i]}; }
   methods::Triangulated view() const {

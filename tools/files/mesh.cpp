@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <stdexcept>
 #include <tuple>
@@ -117,18 +116,7 @@ std::vector<Duplicate> duplicates(const std::vector<Point>& points) {
   pstripack::Workspace workspace(pstripack::workspace_bytes(points.size()));
   const pstripack::Hull hull =
       off_one_great_circle([&] { return pstripack::delaunay(points.data(), points.size(), workspace); });
-  std::map<pstripack::index_t, std::vector<pstripack::index_t>> same;  // key: the node that was inserted
-  for (const auto& [in, out] : hull.coincident) same[in].push_back(out);
-  std::vector<Duplicate> later;
-  for (auto& [in, nodes] : same) {
-    nodes.push_back(in);
-    const pstripack::index_t first = *std::min_element(nodes.begin(), nodes.end());
-    for (const pstripack::index_t node : nodes)
-      if (node != first) later.push_back({static_cast<std::size_t>(node), static_cast<std::size_t>(first)});
-  }
-  std::sort(later.begin(), later.end(),
-            [](const Duplicate& a, const Duplicate& b) { return a.node < b.node; });
-  return later;
+  return coincident_nodes(hull);
 }
 
 Mesh mesh_of(std::vector<Point> points, const Triangles& triangles) {

@@ -1,6 +1,7 @@
 #include "files/near_nodes.h"
 
 #include <algorithm>
+#include <map>
 
 #include "geometry/measures.h"
 
@@ -13,6 +14,21 @@ bool is_near(const Point& a, const Point& b, double within) {
   const double sine = 2 * (within + 1e-15), limit = sine * sine * dot(a, a) * dot(b, b);
   if (limit > 0 && dot(normal, normal) > limit) return false;
   return arc_length(pstripack::direction_of(a), pstripack::direction_of(b)) <= within;
+}
+
+std::vector<Duplicate> coincident_nodes(const pstripack::Hull& hull) {
+  std::map<pstripack::index_t, std::vector<pstripack::index_t>> same;  // key: the node that was inserted
+  for (const auto& [in, out] : hull.coincident) same[in].push_back(out);
+  std::vector<Duplicate> later;
+  for (auto& [in, nodes] : same) {
+    nodes.push_back(in);
+    const pstripack::index_t first = *std::min_element(nodes.begin(), nodes.end());
+    for (const pstripack::index_t node : nodes)
+      if (node != first) later.push_back({static_cast<std::size_t>(node), static_cast<std::size_t>(first)});
+  }
+  std::sort(later.begin(), later.end(),
+            [](const Duplicate& a, const Duplicate& b) { return a.node < b.node; });
+  return later;
 }
 
 NearNeighbours near_neighbours(const pstripack::ListsView<std::int32_t>& lists,

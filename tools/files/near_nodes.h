@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "files/mesh.h"
+#include "mesh/delaunay.h"
 
 namespace files {
 
@@ -13,6 +14,9 @@ constexpr double kMillimetre = 1e-6 / kEarthRadius;  ///< on the Earth, in radia
 
 /// True if the angle between the directions is at most `within` radians. Right for angles from 1e-150 on.
 bool is_near(const Point& a, const Point& b, double within);
+
+/// All nodes but the first of each direction, in increasing order.
+std::vector<Duplicate> coincident_nodes(const pstripack::Hull& hull);
 
 struct NearNeighbours {
   std::size_t pairs = 0;
