@@ -5,6 +5,7 @@
 #include <pybind11/pybind11.h>
 
 #include <memory>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -29,22 +30,23 @@ auto compute(int threads, const Body& body) {
   return pstripack::in_default_floating_point(body);
 }
 
-/// An array that takes over the buffer.
-template <class T, class Item>
-py::array array_of(Buffer<Item>&& buffer, std::vector<py::ssize_t> shape) {
-  auto owner = std::make_unique<Buffer<Item>>(std::move(buffer));
+/// An array that takes over the values.
+template <class T, class Values>
+py::array array_of(Values&& values, std::vector<py::ssize_t> shape) {
+  auto owner = std::make_unique<Values>(std::move(values));
   T* const data = reinterpret_cast<T*>(owner->data());
-  const py::capsule base(owner.release(), [](void* p) { delete static_cast<Buffer<Item>*>(p); });
+  const py::capsule base(owner.release(), [](void* p) { delete static_cast<Values*>(p); });
   return Array<T>(std::move(shape), data, base);
 }
-inline py::array array_of(Buffer<pstripack::Point>&& points) {
-  const auto n = static_cast<py::ssize_t>(points.size());
-  return array_of<double>(std::move(points), {n, 3});
-}
-template <class T>
-py::array array_of(Buffer<T>&& values) {
+/// The same in one dimension, or of points with a row for each.
+template <class Values>
+py::array array_of(Values&& values) {
+  using Item = std::remove_pointer_t<decltype(values.data())>;
   const auto n = static_cast<py::ssize_t>(values.size());
-  return array_of<T>(std::move(values), {n});
+  if constexpr (std::is_same_v<Item, pstripack::Point>)
+    return array_of<double>(std::move(values), {n, 3});
+  else
+    return array_of<Item>(std::move(values), {n});
 }
 
 }  // namespace bindings

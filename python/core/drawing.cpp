@@ -125,21 +125,12 @@ files::Faces faces_of(const Triangulation& mesh, bool cells) {
   files::Faces faces;
   std::vector<Point> nodes(mesh.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = mesh.at(static_cast<std::int32_t>(i));
-  const auto add_corners = [&](const Buffer<std::int32_t>& corners) {
-    faces.corner.resize(corners.size());
-    std::transform(corners.begin(), corners.end(), faces.corner.begin(),
-                   [](std::int32_t c) { return c + 1; });
-  };
   if (cells) {
-    const Cells found = mesh.cells();
-    faces.points.assign(found.vertices.begin(), found.vertices.end());
+    faces = mesh.cells();
     faces.centres = std::move(nodes);
-    faces.begin.assign(found.corners.begin.begin(), found.corners.begin.end());
-    add_corners(found.corners.values);
-    files::divide_half_turns(faces, found.beyond.data(), {faces.centres.data(), faces.centres.size()});
   } else {
     faces.points = std::move(nodes);
-    add_corners(mesh.triangles());
+    for (const std::int32_t corner : mesh.triangles()) faces.corner.push_back(corner + 1);
     for (std::size_t k = 0; k <= faces.corner.size(); k += 3) faces.begin.push_back(k);
   }
   expect_no_half_turn(faces);

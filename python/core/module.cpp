@@ -25,7 +25,6 @@ namespace py = pybind11;
 using bindings::Array;
 using bindings::array_of;
 using bindings::Buffer;
-using bindings::Cells;
 using bindings::compute;
 using bindings::NoTriangulation;
 using bindings::Rows;
@@ -77,12 +76,14 @@ py::array points(const py::object& self) {
   return py::array_t<double>({n, py::ssize_t{3}}, {size, n * size}, mesh->coordinates(), self);
 }
 
-py::array triangles(const Mesh& mesh, int threads) {
-  return rows_of_three(compute(threads, [&] { return mesh->triangles(); }));
+/// What a member without arguments computes: rows of three corners or opposite triangles, or a measure.
+template <auto member>
+py::array rows_of(const Mesh& mesh, int threads) {
+  return rows_of_three(compute(threads, [&] { return (*mesh.triangulation.*member)(); }));
 }
-
-py::array opposite_triangles(const Mesh& mesh, int threads) {
-  return rows_of_three(compute(threads, [&] { return mesh->opposite_triangles(); }));
+template <auto member>
+py::array array_by(const Mesh& mesh, int threads) {
+  return array_of(compute(threads, [&] { return (*mesh.triangulation.*member)(); }));
 }
 
 /// Copies of LIST, LPTR, LEND, and LNEW.
@@ -131,31 +132,12 @@ py::list lists_of(const Array<std::int32_t>& begin, const Array<std::int32_t>& v
   return result;
 }
 
-/// The Voronoi diagram: all vertices, and the vertices of each cell.
-py::tuple cells(const Mesh& mesh, int threads) {
-  Cells c = compute(threads, [&] { return mesh->cells(); });
-  const py::tuple runs = arrays_of(std::move(c.corners));
-  return py::make_tuple(array_of(std::move(c.vertices)), runs[0], runs[1]);
-}
-
-py::array cell_areas(const Mesh& mesh, int threads) {
-  return array_of(compute(threads, [&] { return mesh->cell_areas(); }));
-}
-
-py::array circumcentres(const Mesh& mesh, int threads) {
-  return array_of(compute(threads, [&] { return mesh->circumcentres(); }));
-}
-
-py::array triangle_areas(const Mesh& mesh, int threads) {
-  return array_of(compute(threads, [&] { return mesh->triangle_areas(); }));
-}
-
-py::array circumradii(const Mesh& mesh, int threads) {
-  return array_of(compute(threads, [&] { return mesh->circumradii(); }));
-}
-
-py::array cell_centroids(const Mesh& mesh, int threads) {
-  return array_of(compute(threads, [&] { return mesh->cell_centroids(); }));
+/// The corners of all faces; the first corner of each face in the list of corners; this list.
+py::tuple arrays_of(files::Faces&& faces) {
+  for (std::int32_t& corner : faces.corner) --corner;
+  return py::make_tuple(array_of(std::move(faces.points)),
+                        array_of(std::vector<std::int32_t>(faces.begin.begin(), faces.begin.end())),
+                        array_of(std::move(faces.corner)));
 }
 
 py::array midpoints(const Mesh& mesh, const Array<std::int32_t>& arcs, int threads) {
@@ -276,18 +258,6 @@ py::tuple arrays_of(bindings::Outlines&& outlines) {
                         array_of(std::move(outlines.begin)), array_of(std::move(outlines.face)));
 }
 
-/// Corners of all faces; the first corner of each face in the list of corners; this list.
-py::tuple faces(const Mesh& mesh, bool cells, int threads) {
-  const files::Faces all = compute(threads, [&] { return faces_of(*mesh.triangulation, cells); });
-  Buffer<Point> points(all.points.size());
-  std::copy(all.points.begin(), all.points.end(), points.begin());
-  Buffer<std::int32_t> corners(all.corner.size());
-  std::transform(all.corner.begin(), all.corner.end(), corners.begin(), [](std::int32_t c) { return c - 1; });
-  return py::make_tuple(array_of(std::move(points)),
-                        Array<std::size_t>(static_cast<py::ssize_t>(all.begin.size()), all.begin.data()),
-                        array_of(std::move(corners)));
-}
-
 template <bindings::Outlines (*draw)(const bindings::Window&, const Triangulation&, bool)>
 py::tuple outlines_in(const Mesh& mesh, bool cells, bool orthographic, double lon, double lat, double radius,
                       int threads) {
@@ -342,22 +312,29 @@ PYBIND11_MODULE(_core, m) {
   py::class_<Mesh>(m, "Mesh")
       .def(py::init<py::array_t<double>, int>(), py::arg("points").noconvert(), py::arg("threads"))
       .def_property_readonly("points", &points)
-      .def("triangles", &triangles)
-      .def("opposite_triangles", &opposite_triangles)
+      .def("triangles", &rows_of<&Triangulation::triangles>)
+      .def("opposite_triangles", &rows_of<&Triangulation::opposite_triangles>)
       .def("lists", &lists)
       .def("neighbours",
            [](const Mesh& mesh, int threads) {
              return arrays_of(compute(threads, [&] { return mesh->neighbours(); }));
            })
       .def("boundary", &boundary)
-      .def("circumcentres", &circumcentres)
-      .def("triangle_areas", &triangle_areas)
-      .def("cells", &cells)
-      .def("cell_areas", &cell_areas)
-      .def("circumradii", &circumradii)
-      .def("cell_centroids", &cell_centroids)
+      .def("circumcentres", &array_by<&Triangulation::circumcentres>)
+      .def("triangle_areas", &array_by<&Triangulation::triangle_areas>)
+      .def("cells",
+           [](const Mesh& mesh, int threads) {
+             constexpr double kNoDivision = -2;
+             return arrays_of(compute(threads, [&] { return mesh->cells(kNoDivision); }));
+           })
+      .def("cell_areas", &array_by<&Triangulation::cell_areas>)
+      .def("circumradii", &array_by<&Triangulation::circumradii>)
+      .def("cell_centroids", &array_by<&Triangulation::cell_centroids>)
       .def("closest_pair", &closest_pair)
-      .def("faces", &faces)
+      .def("faces",
+           [](const Mesh& mesh, bool cells, int threads) {
+             return arrays_of(compute(threads, [&] { return faces_of(*mesh.triangulation, cells); }));
+           })
       .def("map_polygons",
            [](const Mesh& mesh, bool cells, int threads) {
              return arrays_of(

@@ -201,39 +201,22 @@ Buffer<std::int32_t> Triangulation::opposite_triangles() const {
   return opposite;
 }
 
-namespace {
-
-/// Makes runs: run k has count(k) values, written by write(k, to).
-template <class Count, class Write>
-Runs make_runs(std::size_t n, const Count& count, const Write& write) {
-  Runs runs;
-  runs.begin = Buffer<std::int32_t>(n + 1);
-  const int threads = threads_for(n);
-  parallel_pieces(n, threads, [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t k = begin; k < end; ++k) runs.begin[k + 1] = count(k);
+Runs Triangulation::neighbours() const {
+  const Reader reader(lists());
+  Runs runs{Buffer<std::int32_t>(n_ + 1), {}};
+  const int threads = threads_for(n_);
+  parallel_pieces(n_, threads, [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t k = begin; k < end; ++k) runs.begin[k + 1] = pstripack::nbcnt(lend_[k], lptr_.data());
   });
   runs.begin[0] = 0;
   std::partial_sum(runs.begin.begin(), runs.begin.end(), runs.begin.begin());
-  runs.values = Buffer<std::int32_t>(static_cast<std::size_t>(runs.begin[n]));
-  parallel_pieces(n, threads, [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t k = begin; k < end; ++k) write(k, runs.values.data() + runs.begin[k]);
+  runs.values = Buffer<std::int32_t>(static_cast<std::size_t>(runs.begin[n_]));
+  parallel_pieces(n_, threads, [&](std::size_t begin, std::size_t end, int) {
+    std::int32_t* to = runs.values.data() + runs.begin[begin];
+    for (std::size_t k = begin; k < end; ++k)
+      files::for_each_neighbour(reader, k, [&](std::size_t j) { *to++ = static_cast<std::int32_t>(j); });
   });
   return runs;
-}
-
-}  // namespace
-
-Runs Triangulation::neighbours() const {
-  const Reader reader(lists());
-  return make_runs(
-      n_, [&](std::size_t k) { return pstripack::nbcnt(lend_[k], lptr_.data()); },
-      [&](std::size_t k, std::int32_t* to) {
-        std::int32_t slot = lend_[k];
-        do {
-          slot = reader.next(slot);
-          *to++ = reader.neighbour(slot) - 1;
-        } while (slot != lend_[k]);
-      });
 }
 
 std::vector<std::int32_t> Triangulation::boundary() const {
@@ -253,49 +236,31 @@ const Triangulation::Exact& Triangulation::exact() const {
   return *exact_;
 }
 
-Buffer<Point> Triangulation::circumcentres() const {
+template <class Measure>
+auto Triangulation::of_triangles(const Measure& measure) const {
   const Buffer<std::int32_t> corners = triangles();
-  const std::size_t count = corners.size() / 3;
-  Buffer<Point> centres(count);
   const Exact& at = exact();
-  parallel_pieces(count, threads_for(4 * count), [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t t = begin; t < end; ++t) {
-      const std::int32_t* const c = corners.data() + 3 * t;
-      at.prefetch(corners, 3 * t);
-      centres[t] = circumcentre(at.directions, c[0], c[1], c[2]);
-    }
+  Buffer<decltype(measure(at.directions, 0, 0, 0))> values(corners.size() / 3);
+  pstripack::parallel_for(values.size(), 4 * values.size(), [&](std::size_t t) {
+    const std::int32_t* const c = corners.data() + 3 * t;
+    at.prefetch(corners, 3 * t);
+    values[t] = measure(at.directions, c[0], c[1], c[2]);
   });
-  return centres;
+  return values;
+}
+
+Buffer<Point> Triangulation::circumcentres() const {
+  return of_triangles([](const auto&... corners) { return circumcentre(corners...); });
 }
 
 Buffer<double> Triangulation::triangle_areas() const {
-  const Buffer<std::int32_t> corners = triangles();
-  const std::size_t count = corners.size() / 3;
-  Buffer<double> areas(count);
-  const Exact& at = exact();
-  parallel_pieces(count, threads_for(4 * count), [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t t = begin; t < end; ++t) {
-      const std::int32_t* const c = corners.data() + 3 * t;
-      at.prefetch(corners, 3 * t);
-      areas[t] = triangle_area(at.directions, c[0], c[1], c[2]);
-    }
-  });
-  return areas;
+  return of_triangles([](const auto&... corners) { return triangle_area(corners...); });
 }
 
 Buffer<double> Triangulation::circumradii() const {
-  const Buffer<std::int32_t> corners = triangles();
-  const std::size_t count = corners.size() / 3;
-  Buffer<double> radii(count);
-  const Exact& at = exact();
-  const auto corner = [&](std::size_t k) { return pstripack::direction_of(at.directions, corners[k]); };
-  parallel_pieces(count, threads_for(10 * count), [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t t = begin; t < end; ++t) {
-      at.prefetch(corners, 3 * t);
-      radii[t] = circumcircle(corner(3 * t), corner(3 * t + 1), corner(3 * t + 2)).radius;
-    }
+  return of_triangles([](const pstripack::Directions& at, auto a, auto b, auto c) {
+    return circumcircle(direction_of(at, a), direction_of(at, b), direction_of(at, c)).radius;
   });
-  return radii;
 }
 
 Buffer<Point> Triangulation::midpoints(const std::int32_t* nodes, std::size_t arcs) const {
@@ -312,77 +277,15 @@ Buffer<Point> Triangulation::midpoints(const std::int32_t* nodes, std::size_t ar
   return middle;
 }
 
-Buffer<Point> Triangulation::gradients(const double* values, std::size_t columns) const {
-  const std::vector<Point> slopes = methods::gradients(view(), {values, columns, columns});
-  Buffer<Point> result(n_ * columns);
-  std::copy(slopes.begin(), slopes.end(), result.begin());
-  return result;
+std::vector<Point> Triangulation::gradients(const double* values, std::size_t columns) const {
+  return methods::gradients(view(), {values, columns, columns});
 }
 
-Cells Triangulation::cells() const {
-  const std::size_t vertices = 2 * n_ - 4, slots = 6 * n_ - 12, boundary_nodes = boundary().size();
-  Buffer<std::int32_t> lptr(slots), corner_of_slot(slots);
-  std::copy(lptr_.begin(), lptr_.begin() + (lnew_ - 1), lptr.begin());
-  std::vector<std::int32_t> far_side(6 * boundary_nodes);
-  Buffer<double> x(vertices), y(vertices), z(vertices);
-  std::int32_t lnew = lnew_, nb = 0;
-  const pstripack::VoronoiStatus status = pstripack::voronoi_of_directions(
-      {n_, list_.data(), lptr.data(), lend_.data(), lnew_}, exact().directions,
-      {static_cast<std::int32_t>(boundary_nodes), lptr.data(), &lnew, far_side.data(), corner_of_slot.data(),
-       &nb, x.data(), y.data(), z.data(), nullptr});
-  if (status != pstripack::VoronoiStatus::done)
-    throw std::runtime_error("the nodes have changed since they were triangulated");
-
-  Cells cells;
-  cells.vertices = Buffer<Point>(vertices);
-  for (std::size_t v = 0; v < vertices; ++v) cells.vertices[v] = {x[v], y[v], z[v]};
-  const auto next = [&](std::int32_t slot) { return lptr[static_cast<std::size_t>(slot) - 1]; };
-  const auto corner = [&](std::int32_t slot) {
-    return corner_of_slot[static_cast<std::size_t>(slot) - 1] - 1;
-  };
-  const auto each_slot = [&](std::size_t k, const auto& visit) {
-    const std::int32_t first = lptr_[static_cast<std::size_t>(lend_[k]) - 1];
-    std::int32_t slot = first;
-    do {
-      visit(slot);
-      slot = next(slot);
-    } while (slot != first);
-  };
-  cells.corners = make_runs(
-      n_, [&](std::size_t k) { return pstripack::nbcnt(lend_[k], lptr.data()); },
-      [&](std::size_t k, std::int32_t* to) {
-        each_slot(k, [&](std::int32_t slot) { *to++ = corner(slot); });
-      });
-  cells.beyond = Buffer<std::int32_t>(cells.corners.values.size());
-  const Reader reader(lists());
-  for (std::size_t k = 0; k < n_; ++k) {
-    std::int32_t* to = cells.beyond.data() + cells.corners.begin[k];
-    each_slot(k, [&](std::int32_t slot) {
-      if (slot < lnew_) {
-        *to++ = reader.neighbour(slot);
-        return;
-      }
-      // On the far side: the corner after this node in the triangle on the left of the arc.
-      const std::int32_t* const column = far_side.data() + 6 * static_cast<std::size_t>(corner(slot));
-      const auto node = std::find(column, column + 3, static_cast<std::int32_t>(k) + 1) - column;
-      *to++ = column[(node + 1) % 3];
-    });
-  }
-  return cells;
+files::Faces Triangulation::cells(double cosine) const {
+  return files::voronoi_cells(lists(), exact().directions, false, cosine);
 }
 
-Buffer<Point> Triangulation::cell_centroids() const {
-  const Cells found = cells();
-  files::Faces faces;
-  faces.points.assign(found.vertices.begin(), found.vertices.end());
-  faces.begin.assign(found.corners.begin.begin(), found.corners.begin.end());
-  for (const std::int32_t corner : found.corners.values) faces.corner.push_back(corner + 1);
-  files::divide_half_turns(faces, found.beyond.data(), exact().directions, -0.9);
-  const std::vector<Point> centroids = files::centroids(faces);
-  Buffer<Point> result(n_);
-  std::copy(centroids.begin(), centroids.end(), result.begin());
-  return result;
-}
+std::vector<Point> Triangulation::cell_centroids() const { return files::centroids(cells(-0.9)); }
 
 Buffer<double> Triangulation::cell_areas() const {
   Buffer<double> areas(n_);

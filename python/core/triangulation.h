@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "base/buffer.h"
-#include "files/measures.h"
+#include "files/mesh.h"
 #include "lists/adjacency_lists.h"
 #include "methods/interpolation.h"
 #include "stripack/expressions.h"
@@ -48,15 +48,8 @@ struct Runs {
 /// Nodes and a number of each, weight or distance, for each of several places: those of place i are
 /// begin[i] ... begin[i+1]-1.
 struct Rows {
-  Buffer<std::int32_t> begin, nodes;
-  Buffer<double> numbers;
-};
-
-/// A Voronoi diagram of the whole sphere.
-struct Cells {
-  Buffer<Point> vertices;       ///< on the unit sphere
-  Runs corners;                 ///< vertices of each cell, counterclockwise
-  Buffer<std::int32_t> beyond;  ///< the neighbour, from 1, beyond the side that ends at each of these corners
+  std::vector<std::int32_t> begin, nodes;
+  std::vector<double> numbers;
 };
 
 /// The closest two nodes, and their straight distance on the unit sphere.
@@ -113,15 +106,15 @@ class Triangulation {
   Buffer<double> circumradii() const;
 
   /// The Voronoi cells. If the nodes lie in a hemisphere, the cells of boundary nodes share the rest of the
-  /// sphere.
-  Cells cells() const;
+  /// sphere. `cosine`: see files/mesh.h.
+  files::Faces cells(double cosine = -1 + 1e-12) const;
   Buffer<double> cell_areas() const;
   /// The direction of the integral of p over each cell, as files/mesh.h computes it.
-  Buffer<Point> cell_centroids() const;
+  std::vector<Point> cell_centroids() const;
   ClosestPair closest_pair() const;
   /// The gradients that methods/gradients.h estimates. `values` has `columns` consecutive values for each
   /// node, and so has the result.
-  Buffer<Point> gradients(const double* values, std::size_t columns) const;
+  std::vector<Point> gradients(const double* values, std::size_t columns) const;
   /// The middle of each arc; arc k joins nodes[2k] and nodes[2k+1].
   Buffer<Point> midpoints(const std::int32_t* nodes, std::size_t arcs) const;
 
@@ -154,6 +147,9 @@ class Triangulation {
  private:
   struct Exact;
   const Exact& exact() const;
+  /// measure(directions, a, b, c) of each of triangles().
+  template <class Measure>
+  auto of_triangles(const Measure& measure) const;
   void read(const Coordinates& given);
   void triangulate();
   void make_directions();
@@ -162,7 +158,7 @@ class Triangulation {
     return {lists(), {given_[0], given_[1], given_[2]}, {direction_[0], direction_[1], direction_[2]}};
   }
   template <class State, class Visit>
-  static std::vector<State> visit_places(const Point* places, std::size_t count, const Visit& visit);
+  static void visit_places(const Point* places, std::size_t count, const Visit& visit);
   template <class State, class Find>
   static Rows rows(const Point* places, std::size_t count, const Find& find);
 

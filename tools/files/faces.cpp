@@ -1,4 +1,4 @@
-// What Faces alone tell: edges, centroids.
+// Voronoi cells, and what Faces alone tell: edges, centroids.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,10 +6,13 @@
 #include <tuple>
 #include <utility>
 
+#include "base/buffer.h"
 #include "base/parallel_for.h"
 #include "files/measures.h"
 #include "files/mesh.h"
 #include "geometry/measures.h"
+#include "stripack/triangle_list.h"
+#include "stripack/voronoi.h"
 
 namespace files {
 namespace {
@@ -81,8 +84,13 @@ Edges edges_of(const Faces& faces) {
   return edges;
 }
 
-void divide_half_turns(Faces& cells, const std::int32_t* beyond, const pstripack::Directions& nodes,
-                       double cosine) {
+namespace {
+
+/// Inserts the midpoint of each side of a Voronoi cell that is half a turn: the ends of such a side do not
+/// determine its great circle. They occur where nodes lie on one circle: their cells are lunes with two
+/// sides. beyond[k]: the node, from 1, across the side that ends at cells.corner[k].
+void divide_half_turns(Faces& cells, const std::vector<std::int32_t>& beyond,
+                       const pstripack::Directions& nodes, double cosine) {
   std::map<std::array<double, 3>, std::int32_t> middles;  // both cells compute the same bits
   std::vector<std::int32_t> corner;
   std::vector<std::size_t> begin{0};
@@ -104,6 +112,55 @@ void divide_half_turns(Faces& cells, const std::int32_t* beyond, const pstripack
   }
   cells.corner = std::move(corner);
   cells.begin = std::move(begin);
+}
+
+}  // namespace
+
+Faces voronoi_cells(const pstripack::ListsView<std::int32_t>& lists, const pstripack::Directions& nodes,
+                    bool far_side_first, double cosine) {
+  const std::size_t n = lists.n;
+  pstripack::Buffer<std::int32_t> lptr(6 * n - 12), corner(lptr.size());
+  std::copy(lists.lptr, lists.lptr + lists.lnew - 1, lptr.begin());
+  const std::int32_t boundary = pstripack::boundary_nodes(lists, corner.data()).boundary_nodes;
+  std::vector<std::int32_t> far_side(6 * static_cast<std::size_t>(boundary));
+  pstripack::Buffer<double> x(2 * n - 4), y(x.size()), z(x.size());
+  std::int32_t lnew = lists.lnew, nb = 0;
+  const pstripack::VoronoiStatus status =
+      pstripack::voronoi_of_directions({n, lists.list, lptr.data(), lists.lend, lnew}, nodes,
+                                       {boundary, lptr.data(), &lnew, far_side.data(), corner.data(), &nb,
+                                        x.data(), y.data(), z.data(), nullptr});
+  if (status != pstripack::VoronoiStatus::done)
+    throw NoMesh("the Voronoi diagram failed with code " + std::to_string(static_cast<int>(status)));
+
+  Faces cells;
+  cells.points.resize(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) cells.points[i] = {x[i], y[i], z[i]};
+  cells.corner.reserve(corner.size());
+  std::vector<std::int32_t> beyond;
+  const bool divides = cosine >= -1;
+  if (divides) beyond.reserve(corner.size());
+  cells.begin.push_back(0);
+  const std::int32_t* const first_after = far_side_first ? lptr.data() : lists.lptr;
+  for (std::size_t node = 0; node < n; ++node) {
+    const std::int32_t first = first_after[static_cast<std::size_t>(lists.lend[node]) - 1];
+    std::int32_t slot = first;
+    do {
+      const auto s = static_cast<std::size_t>(slot) - 1;
+      cells.corner.push_back(corner[s]);
+      if (divides && slot < lists.lnew) {
+        beyond.push_back(std::abs(lists.list[s]));
+      } else if (divides) {
+        // On the far side: the corner after this node in the triangle on the left of the arc.
+        const std::int32_t* const column = far_side.data() + 6 * (static_cast<std::size_t>(corner[s]) - 1);
+        const auto here = std::find(column, column + 3, static_cast<std::int32_t>(node) + 1) - column;
+        beyond.push_back(column[(here + 1) % 3]);
+      }
+      slot = lptr[s];
+    } while (slot != first);
+    cells.begin.push_back(cells.corner.size());
+  }
+  if (divides) divide_half_turns(cells, beyond, nodes, cosine);
+  return cells;
 }
 
 std::vector<Point> centroids(const Faces& faces) {

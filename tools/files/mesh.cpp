@@ -271,55 +271,14 @@ void expect_whole_sphere(const std::vector<double>& areas) {
                     sum));
 }
 
-/// Gives the cells, which have none, their corners: the circumcentres of the triangles.
-void add_corners(Faces& cells, const Mesh& mesh, const pstripack::Directions& directions) {
-  const std::size_t n = mesh.points.size();
-  std::vector<std::int32_t> lptr = mesh.lptr, listc(6 * n - 12);
-  std::int32_t lnew = mesh.lnew, nb = 0;
-  const std::size_t ncol = mesh.has_boundary() ? hull_of(mesh).size() - 2 : 1;
-  std::vector<std::int32_t> ltri(6 * ncol);
-  std::vector<double> x(2 * n - 4), y(x.size()), z(x.size());
-  const pstripack::VoronoiStatus status =
-      pstripack::voronoi_of_directions({n, mesh.list.data(), lptr.data(), mesh.lend.data(), lnew}, directions,
-                                       {static_cast<std::int32_t>(ncol), lptr.data(), &lnew, ltri.data(),
-                                        listc.data(), &nb, x.data(), y.data(), z.data(), nullptr});
-  if (status != pstripack::VoronoiStatus::done)
-    throw NoMesh(fmt::format("the Voronoi diagram failed with code {}", static_cast<int>(status)));
-
-  cells.points.resize(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) cells.points[i] = {x[i], y[i], z[i]};
-  cells.corner.reserve(listc.size());
-  std::vector<std::int32_t> beyond;  // of each corner: the node across the side that ends there
-  beyond.reserve(listc.size());
-  for (std::size_t node = 0; node < n; ++node) {
-    const std::int32_t last = mesh.lend[node];
-    std::int32_t slot = last;
-    do {
-      slot = lptr[static_cast<std::size_t>(slot) - 1];
-      const auto s = static_cast<std::size_t>(slot) - 1;
-      cells.corner.push_back(listc[s]);
-      if (slot < mesh.lnew) {
-        beyond.push_back(std::abs(mesh.list[s]));
-        continue;
-      }
-      // On the far side: the corner after this node in the triangle on the left of the arc.
-      const std::int32_t* const column = ltri.data() + 6 * (static_cast<std::size_t>(listc[s]) - 1);
-      const auto here = std::find(column, column + 3, static_cast<std::int32_t>(node) + 1) - column;
-      beyond.push_back(column[(here + 1) % 3]);
-    } while (slot != last);
-    cells.begin[node + 1] = cells.corner.size();
-  }
-  divide_half_turns(cells, beyond.data(), directions);
-}
-
 }  // namespace
 
 Faces voronoi_faces(const Mesh& mesh, bool with_corners) {
   const pstripack::Directions directions(mesh.points.data(), mesh.points.size());
   Faces cells;
-  cells.centres = unit(mesh.points);
+  if (with_corners) cells = voronoi_cells(mesh.lists(), directions, true);
   cells.begin.resize(mesh.points.size() + 1);
-  if (with_corners) add_corners(cells, mesh, directions);
+  cells.centres = unit(mesh.points);
   cells.area.resize(mesh.points.size());
   if (!pstripack::cell_areas(mesh.lists(), directions, cells.area.data()))
     throw NoMesh("the lists are broken");

@@ -127,12 +127,11 @@ struct Edges {
 };
 Edges edges_of(const Faces& faces);
 
-/// Inserts the midpoint of each side of a Voronoi cell that is half a turn: the ends of such a side do not
-/// determine its great circle. They occur where nodes lie on one circle: their cells are lunes with two
-/// sides. beyond[k]: the node, from 1, across the side that ends at cells.corner[k]. `cosine`: of the least
-/// angle that is divided.
-void divide_half_turns(Faces& cells, const std::int32_t* beyond, const pstripack::Directions& nodes,
-                       double cosine = -1 + 1e-12);
+/// The Voronoi cells, without their nodes. If the nodes lie in a hemisphere, the corners on the far side are
+/// the first or the last of each cell. `cosine`: of the least angle of sides that are divided, since sides of
+/// half a turn do not determine a great circle; below -1: none are.
+Faces voronoi_cells(const pstripack::ListsView<std::int32_t>& lists, const pstripack::Directions& nodes,
+                    bool far_side_first, double cosine = -1 + 1e-12);
 
 /// The centroid of each face: the direction of the integral of p over it. Right to 1e-15 rad for each unit of
 /// the face's length over its width; to 1e-10 where a side is
