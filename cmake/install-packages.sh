@@ -24,7 +24,7 @@ tests="
   python3-dev pybind11-dev python3-pybind11
   python3-pandas python3-geopandas python3-matplotlib python3-cartopy
   python3-scipy python3-mpmath python3-pytest python3-mypy python3-pip python3-setuptools python3-wheel
-  python3 python3-numpy python3-yaml doxygen librsvg2-bin ghostscript
+  python3 python3-numpy python3-yaml doxygen ghostscript
 "
 case ${1:-} in
   main) shift; packages="$main $*" ;;

@@ -96,7 +96,7 @@ mpirun.")
 endif()
 if(PSTRIPACK_TOOLS)
   debian_package(tools NAME pstripack SECTION science
-    DEPENDS libpstripack${soversion} librsvg2-bin SUGGESTS pstripack-mpi libmagics++-data
+    DEPENDS libpstripack${soversion} SUGGESTS pstripack-mpi libmagics++-data librsvg2-bin
     SUMMARY "Delaunay triangulation on the sphere: commands"
     DESCRIPTION "${about}This package has pstripack, which makes meshes of files of nodes, and
 stripack-compare, which runs an original STRIPACK beside this one and

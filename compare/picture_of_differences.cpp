@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <set>
 #include <stdexcept>
 #include <utility>
 
+#include "files/output_file.h"
 #include "only_in.h"
 #include "point_sets.h"
 
@@ -175,10 +177,8 @@ std::string caption(double y, const std::string& text) {
 }  // namespace
 
 Plot::Plot(const std::string& file) : file_(file) {
-  const auto kind = pictures::kind_of(file);
-  if (!kind) throw std::invalid_argument("--plot " + file + ": expected FILE.svg or FILE.png");
-  kind_ = *kind;
-  pictures::expect_converter(kind_);
+  if (std::filesystem::path(file).extension() != ".svg")
+    throw std::invalid_argument("--plot " + file + ": expected FILE.svg");
 }
 
 void Plot::add(const Result& result, const std::vector<Point>& points) {
@@ -227,7 +227,8 @@ text {{ paint-order: stroke; stroke: white; stroke-width: 2.5px }}
 
 void Plot::write() const {
   files::OutputFile file(file_);
-  pictures::write(file, kind_, svg());
+  const std::string text = svg();
+  file.write(text.data(), text.size());
   file.commit();
 }
 

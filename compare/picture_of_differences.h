@@ -13,7 +13,7 @@ namespace comparison {
 /// alone red, arcs of ours alone blue; the circumcircle that decides is dashed.
 class Plot {
  public:
-  /// FILE.svg, or FILE.png if rsvg-convert is installed; throws std::invalid_argument for other names.
+  /// Throws std::invalid_argument unless it is called FILE.svg.
   explicit Plot(const std::string& file);
 
   /// Draws the differences that the result describes, up to the space of the picture.
@@ -27,7 +27,6 @@ class Plot {
 
  private:
   std::string file_;
-  pictures::Kind kind_;
   std::string body_;
   std::size_t rows_ = 0;
 };

@@ -130,7 +130,7 @@ void add_run_options(CLI::App& app, RunOptions& options) {
                  "number of calls (fewer above 10 s); their median time is shown [3]")
       ->check(CLI::Range(1, 1000).description(""));
   app.add_option("--show", options.show, "number of differences described per reason [5; several cases: 0]");
-  app.add_option("--plot", options.plot, "draw the described differences to FILE.svg or FILE.png");
+  app.add_option("--plot", options.plot, "draw the described differences to FILE.svg");
   app.add_option("--json", options.json, "write everything to this file");
   app.add_option("--csv", options.csv, "write one row per call of ours");
   app.add_option("--junit", options.junit,

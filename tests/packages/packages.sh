@@ -65,7 +65,7 @@ has pstripack-doc '^$' . share/doc/pstripack/README.md share/doc/pstripack/docs/
 completions=share/bash-completion/completions
 fish=share/fish/vendor_completions.d zsh='share/zsh/(vendor-completions|site-functions)'  # a build for /usr, any other
 has libpstripack-dev . mpi "$completions/pstripack-config" "$fish/pstripack-config.fish" "$zsh/_pstripack-config"
-has pstripack librsvg2-bin mpi "$completions/pstripack" "$completions/stripack-compare" "$fish/pstripack.fish" "$zsh/_pstripack"
+has pstripack libpstripack mpi "$completions/pstripack" "$completions/stripack-compare" "$fish/pstripack.fish" "$zsh/_pstripack"
 
 # Every file of `cmake --install` except the modulefile, exactly once.
 for file in ./*.deb; do

@@ -1,26 +1,16 @@
 #pragma once
-// Pictures as SVG, or PNG made of it: for `pstripack plot` and `stripack-compare --plot`.
+// The text of SVG: for `pstripack plot` and `stripack-compare --plot`.
 
 #include <climits>
 #include <cmath>
-#include <optional>
 #include <string>
-
-#include "files/output_file.h"
-#include "pictures/place.h"
 
 namespace pictures {
 
-enum class Kind { svg, png };
-
-/// By the suffix of the file: .svg or .png.
-std::optional<Kind> kind_of(const std::string& file);
-
-/// Throws std::runtime_error if PNG is requested and rsvg-convert, which makes it, is missing.
-void expect_converter(Kind kind);
-
-/// Writes the picture; the caller calls commit(). Throws std::runtime_error if it cannot be written.
-void write(files::OutputFile& file, Kind kind, const std::string& svg);
+/// A place in the picture in pixels, to the right and down.
+struct Place {
+  double x, y;
+};
 
 /// The text for an attribute or element of XML; it may contain any bytes.
 std::string escaped_for_xml(const std::string& text);

@@ -8,7 +8,7 @@
 
 #include "files/clipping.h"
 #include "geometry/point.h"
-#include "pictures/place.h"
+#include "pictures/svg.h"
 
 namespace pictures {
 

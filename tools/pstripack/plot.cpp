@@ -10,7 +10,6 @@
 #include "numbers.h"
 #include "pictures/mesh_picture.h"
 #include "pictures/scale.h"
-#include "pictures/svg.h"
 #include "pstripack/options.h"
 #include "pstripack/progress.h"
 
@@ -105,12 +104,12 @@ void expect_column(const files::Nodes& nodes, const std::string& name) {
 }
 
 void plot(Options& options) {
-  const std::string name = options.to.empty() ? options.file : "picture." + options.to;
-  const bool globe = std::filesystem::path(name).extension() == ".html";
-  const pictures::Kind kind = pictures::kind_of(name).value_or(pictures::Kind::svg);
-  if (!globe && !pictures::kind_of(name))
-    throw CLI::ValidationError(
-        "--output", options.file + ": expected FILE.svg, FILE.png or FILE.html, or --to svg, png or html");
+  const std::string suffix =
+      options.to.empty() ? std::filesystem::path(options.file).extension().string() : "." + options.to;
+  const bool globe = suffix == ".html";
+  if (!globe && suffix != ".svg")
+    throw CLI::ValidationError("--output",
+                               options.file + ": expected FILE.svg or FILE.html, or --to svg or html");
   MeshOptions& wanted = options.mesh;
   if (options.what == "cells") wanted.what = MeshOptions::What::cells;
   if (!options.view.empty()) set_view(options.view, wanted);
@@ -121,7 +120,6 @@ void plot(Options& options) {
     throw CLI::ValidationError("--colour", "degree is a property of nodes: say --what cells");
   if (globe && (wanted.lonlat || wanted.width != MeshOptions().width || wanted.dots))
     throw CLI::ValidationError("--to", "a globe has no --view lonlat, --box, --dots or --width");
-  pictures::expect_converter(kind);
 
   options.input.read.with_columns = wanted.colour == MeshOptions::Colour::value;
   // Without triangles where nodes are left out, which renumbers corners.
@@ -144,9 +142,10 @@ void plot(Options& options) {
                        ? *options.title
                        : fmt::format("{}: {}", std::filesystem::path(nodes.file).filename().string(),
                                      what_is_drawn(mesh, wanted.what));
-    write(file, kind, in_file(nodes.file, [&] {
-            return globe ? globe_page(mesh_globe(mesh, wanted)) : mesh_picture(mesh, wanted);
-          }));
+    const std::string picture = in_file(nodes.file, [&] {
+      return globe ? globe_page(mesh_globe(mesh, wanted)) : mesh_picture(mesh, wanted);
+    });
+    file.write(picture.data(), picture.size());
     file.commit();
   });
   progress.finish(fmt::format("{} ({}), {}", counted(nodes.points.size(), "node"), nodes.kind,
@@ -157,16 +156,16 @@ void plot(Options& options) {
 
 void add_plot(CLI::App& app, Command& chosen) {
   CLI::App* const sub = app.add_subcommand("plot",
-                                           "picture of the triangulation or its Voronoi cells: SVG or PNG; "
+                                           "picture of the triangulation or its Voronoi cells: SVG; "
                                            "a globe to turn: HTML");
   const auto options = std::make_shared<Options>();
   add_input(*sub, options->input);
   add_duplicates(*sub, options->input);
   option(*sub, "-o,--output FILE", options->file,
-         "picture to write: FILE.svg or FILE.png, or FILE.html, a globe; - is stdout")
+         "picture to write: FILE.svg, or FILE.html, a globe; - is stdout")
       ->required();
-  option(*sub, "--to FORMAT", options->to, "svg, png or html [by the suffix of the file]")
-      ->check(one_of({"svg", "png", "html"}));
+  option(*sub, "--to FORMAT", options->to, "svg or html [by the suffix of the file]")
+      ->check(one_of({"svg", "html"}));
   option(*sub, "--what WORD", options->what, "triangles, or cells of the Voronoi diagram")
       ->capture_default_str()
       ->check(one_of({"triangles", "cells"}));
@@ -189,7 +188,7 @@ void add_plot(CLI::App& app, Command& chosen) {
       ->capture_default_str()
       ->check(number_from(100, 20000, "a number from 100 to 20000"));
   sub->footer(R"(  pstripack plot mesh.nc -o mesh.svg
-  pstripack plot nodes.txt --view orthographic:10,45 --zoom 5 -o zoom.png --width 1600
+  pstripack plot nodes.txt --view orthographic:10,45 --zoom 5 -o zoom.svg --width 1600
   pstripack plot nodes.txt --what cells --colour area -o cells.svg
   pstripack plot quakes.csv --what cells --colour mag --coasts --view lonlat -o quakes.svg
   pstripack plot quakes.csv --what cells --colour mag --range 2,7 --dots --box 170,-170,-30,-10 -o fiji.svg
@@ -204,8 +203,8 @@ Colours:
 
 Triangles of UGRID, MPAS and OFF files are drawn as they are; other nodes are triangulated first. Nodes that do not
 cover the sphere fill the picture; their boundary is orange. At most 200,000 nodes may be in view: choose a part by
---view and --zoom. PNG needs rsvg-convert (Debian: librsvg2-bin). A globe is one file for any browser, without
-network, that holds the mesh, of any size.)");
+--view and --zoom. To make PNG: rsvg-convert mesh.svg -o mesh.png (Debian: librsvg2-bin). A globe is one file for
+any browser, without network, that holds the mesh, of any size.)");
 
   sub->callback([=, &chosen] { chosen = [=] { plot(*options); }; });
 }
