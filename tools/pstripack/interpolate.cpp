@@ -21,7 +21,6 @@ namespace {
 
 using methods::Interpolation;
 
-enum class Outside { missing, nearest, error };
 /// Places of a grid: centres of cells, or, including the edges of the box, corners of cells.
 enum class Registration { cell, node };
 enum class To { text, csv, netcdf };
@@ -32,7 +31,7 @@ struct Options {
   double step = 0;
   Registration registration = Registration::cell;
   Interpolation::Method method = Interpolation::Method::linear;
-  Outside outside = Outside::missing;
+  Interpolation::Outside outside = Interpolation::Outside::missing;
   bool nearest_node = false;
   std::string output, to, weights;
 };
@@ -193,26 +192,13 @@ void interpolate(Options& options) {
     tell_near_nodes(nodes, made.mesh().lists);
     return made;
   });
-  const auto outside =
-      options.outside == Outside::nearest ? Interpolation::Outside::nearest : Interpolation::Outside::missing;
   Interpolation::Result result;
   files::Weights weights;
   progress.step("interpolating", [&] {
-    if (has_weights) weights = interpolation.weights_at(places.points, options.method, outside);
+    if (has_weights) weights = interpolation.weights_at(places.points, options.method, options.outside);
     if (has_values)
-      result = interpolation.values_at(places.points, nodes.value.numbers, options.method, outside);
+      result = interpolation.values_at(places.points, nodes.value.numbers, options.method, options.outside);
   });
-  const std::size_t count_outside = has_values ? result.outside : weights.outside;
-  if (options.outside == Outside::error && count_outside > 0) {
-    std::size_t first = 0;
-    while (has_values ? !std::isnan(result.values[first]) : weights.begin[first] < weights.begin[first + 1])
-      ++first;
-    const files::LonLat where({places.points[first]}, true);
-    throw std::runtime_error(fmt::format(
-        "{} of {} places lie outside the nodes of {}, the first is place {}, lon {:.6g} lat {:.6g}: "
-        "--outside missing or nearest",
-        count_outside, places.points.size(), nodes.file, places.number(first), where.lon[0], where.lat[0]));
-  }
   const files::LonLat at = angles_of(places.points, places.given, true);
   add_history(nodes.notes);
   if (has_weights)
@@ -242,7 +228,8 @@ void interpolate(Options& options) {
       file->commit();
     });
   progress.finish(fmt::format("{} ({}), {}, {} outside the nodes{}", counted(nodes.points.size(), "node"),
-                              nodes.kind, counted(places.points.size(), "place"), count_outside,
+                              nodes.kind, counted(places.points.size(), "place"),
+                              has_values ? result.outside : weights.outside,
                               has_weights ? ", " + counted(weights.node.size(), "weight") : ""));
 }
 
@@ -272,10 +259,9 @@ void add_interpolate(CLI::App& app, Command& chosen) {
        {"cubic", Interpolation::Method::cubic},
        {"nearest", Interpolation::Method::nearest}},
       "linear (on triangles), natural (neighbours), cubic (these and gradients) or nearest (node) [linear]");
-  add_choice(
-      *sub, "--outside", options->outside,
-      {{"missing", Outside::missing}, {"nearest", Outside::nearest}, {"error", Outside::error}},
-      "places outside the nodes: missing (no value), nearest (nearest node's value) or error [missing]");
+  add_choice(*sub, "--outside", options->outside,
+             {{"missing", Interpolation::Outside::missing}, {"nearest", Interpolation::Outside::nearest}},
+             "places outside the nodes: missing (no value) or nearest (nearest node's value) [missing]");
   add_reading(*sub, options->input.read);
   add_skip_missing(*sub, options->input.read, "a place or a value, points without a place");
   add_duplicates(*sub, options->input);

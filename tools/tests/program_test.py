@@ -774,8 +774,6 @@ def test_values_and_grids_that_are_refused():
             (1, "octahedron.txt --grid-step 30 -o b.txt", "may be degrees or radians"),
             (1, "two.txt --grid-step 30 -o b.txt", "two.txt: has 2 columns: say --coordinates lonlat or xyz"),
             (1, "twice.txt --grid-step 30 -o b.txt", "are in the same place: remove one, or say --duplicates first"),
-            (1, "cap.txt --grid-step 30 --outside error -o b.txt", "places lie outside the nodes of cap.txt, the first is "
-             "place 1, lon -165 lat -75: --outside missing or nearest"),
             (1, "cap.txt --to-points no.txt -o b.txt", "no.txt: cannot be opened")):
         refuses(code, "interpolate " + arguments, words)
 
