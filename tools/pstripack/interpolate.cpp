@@ -10,7 +10,6 @@
 #include <optional>
 #include <stdexcept>
 
-#include "files/measures.h"
 #include "methods/triangulated_nodes.h"
 #include "numbers.h"
 #include "pstripack/options.h"
@@ -32,7 +31,6 @@ struct Options {
   Registration registration = Registration::cell;
   Interpolation::Method method = Interpolation::Method::linear;
   Interpolation::Outside outside = Interpolation::Outside::missing;
-  bool nearest_node = false;
   std::string output, to, weights;
 };
 
@@ -126,22 +124,6 @@ files::Nodes read_values(Options& options) {
   return nodes;
 }
 
-/// The columns of the nearest node of each place.
-files::Columns nearest_columns(const Interpolation& interpolation, const files::Nodes& nodes,
-                               const std::vector<files::Point>& places) {
-  const files::Weights nearest = interpolation.weights_at(places, Interpolation::Method::nearest, {});
-  std::vector<double> numbers, km;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto node = static_cast<std::size_t>(nearest.node[i]) - 1;
-    numbers.push_back(static_cast<double>(nodes.number(node)));
-    km.push_back(files::kEarthRadius *
-                 arc_length(pstripack::direction_of(nodes.points[node]), pstripack::direction_of(places[i])));
-  }
-  return {files::whole_numbers("nearest_node", "number of the nearest node in the input, from 1",
-                               std::move(numbers)),
-          {"nearest_km", "distance to the nearest node on a sphere of radius 6371 km", "km", std::move(km)}};
-}
-
 /// Reads the places with the columns of their file, and x y z if these were given.
 files::Nodes read_points(const Options& options) {
   files::ReadOptions read;
@@ -214,9 +196,7 @@ void interpolate(Options& options) {
     });
   if (has_values)
     progress.step("writing", [&] {
-      files::Field field{std::move(nodes.value), {}, std::move(nodes.notes)};
-      if (options.nearest_node) field.columns = nearest_columns(interpolation, nodes, places.points);
-      field.columns.insert(field.columns.end(), places.columns.begin(), places.columns.end());
+      files::Field field{std::move(nodes.value), std::move(places.columns), std::move(nodes.notes)};
       if (field.value.name.empty()) field.value.name = "value";
       field.value.numbers = std::move(result.values);
       field.value.whole = false;
@@ -265,12 +245,9 @@ void add_interpolate(CLI::App& app, Command& chosen) {
   add_reading(*sub, options->input.read);
   add_skip_missing(*sub, options->input.read, "a place or a value, points without a place");
   add_duplicates(*sub, options->input);
-  sub->add_flag("--nearest-node", options->nearest_node,
-                "also columns nearest_node, its number in VALUES, and nearest_km, its distance");
   option(*sub, "--weights FILE", options->weights,
          "NetCDF file of the weights as of ESMF_RegridWeightGen: row, col, S; with or without --output");
   option(*sub, "-o,--output FILE", options->output, "file to write; - is stdout");
-  sub->get_option("--nearest-node")->needs("--output");
   for (const char* const of_grid : {"--box", "--registration", "--to-grid", "--grid-step"})
     sub->get_option("--to-points")->excludes(sub->get_option(of_grid));
   sub->get_option("--to-grid")->excludes("--grid-step");

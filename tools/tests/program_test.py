@@ -731,15 +731,11 @@ def test_interpolate_outside_of_a_region_and_by_the_nearest_node():
     output("interpolate region.txt --to-grid 2x3 --box 10,40,-20,0 -o grid.txt --outside nearest")
     assert [f"{lon} {lat}" for lon, lat, _ in rows("grid.txt")] == [
         "15 -15", "25 -15", "35 -15", "15 -5", "25 -5", "35 -5"]
-    # The nearest node, also beyond the region: its value, number and distance.
+    # The value of the nearest node, also beyond the region.
     write("few.csv", "lon,lat,v\n10,0,1\n,0,9\n12,0,2\n10,2,3\n12,0,2\n")
-    write("two.csv", "lon,lat,nearest_km\n10,-1,a\n100,0,b\n")
-    few = "interpolate few.csv --units degrees --skip-missing --duplicates first --nearest-node "
-    output(few + "--method nearest --to-points two.csv -o out.csv")
-    found = table("out.csv")[1:]
-    assert [row[:4] + row[5:] for row in found] == [["10", "-1", "1", "1", "a"], ["100", "0", "2", "3", "b"]]
-    assert [float(row[4]) for row in found] == pytest.approx([111.19492664455873, 88 * 111.19492664455873], rel=1e-13)
-    assert output(few + "--grid-step 90 -o -").startswith("# lon lat v nearest_node nearest_km [km]\n")
+    write("two.csv", "lon,lat,name\n10,-1,a\n100,0,b\n")
+    output("interpolate few.csv --units degrees --skip-missing --duplicates first --method nearest --to-points two.csv -o out.csv")
+    assert table("out.csv")[1:] == [["10", "-1", "1", "a"], ["100", "0", "2", "b"]]
     # Missing values and duplicates.
     region = lines("region.txt")
     region[4] = region[4].rsplit(" ", 1)[0] + " nan"
@@ -764,7 +760,6 @@ def test_values_and_grids_that_are_refused():
             (2, "a.txt --grid-step 7 -o b.txt", "180 degrees are not a multiple of 7"),
             (2, "a.txt --grid-step 30", "--output or --weights is required"),
             (2, "a.txt --grid-step 30 --duplicates mean --weights b.nc", "--weights: need one node for each place"),
-            (2, "a.txt --grid-step 30 --nearest-node --weights b.nc", "--nearest-node requires --output"),
             (1, "three.txt --grid-step 30 --weights b.nc", "three.txt: has 3 columns: say --coordinates lonlat or xyz"),
             (2, "a.txt --to-grid 180 -o b.txt", "'180' is not 2 numbers"),
             (2, "a.txt --to-grid 1x5 --registration node -o b.txt", "expected NLATxNLON"),
