@@ -222,8 +222,6 @@ void add_duplicates(CLI::App& app, Input& input) {
              "nodes in the same place: error, first (keep it) or mean (of their values) [error]");
   add_distance(app, "--duplicates-within", input.within,
                "nodes this near are in the same place: 1mm, 0.5m, 2km, 1e-6deg, 1e-8rad [0]");
-  option(app, "--list-duplicates FILE", input.list,
-         "write the nodes that are dropped, and `kept`, the number of the one kept: CSV, or GeoJSON");
 }
 
 void add_output(CLI::App& app, Output& output, bool required) {
@@ -365,39 +363,13 @@ std::vector<files::Duplicate> duplicates_within(const std::vector<files::Point>&
   return all;
 }
 
-/// Writes the duplicates as nodes with their columns and the number of the node that is kept.
-void list(Nodes nodes, const std::vector<files::Duplicate>& duplicates, const std::string& name) {
-  if (global().is_led) return;
-  files::OutputFile file(name);
-  std::vector<std::size_t> dropped;
-  std::vector<double> kept;
-  for (const files::Duplicate& d : duplicates) {
-    dropped.push_back(d.node);
-    kept.push_back(static_cast<double>(nodes.number(d.first)));
-  }
-  nodes.keep(dropped);
-  number_nodes(nodes);
-  nodes.columns.insert(nodes.columns.begin() + 1,
-                       files::whole_numbers("kept", "number of the node in its place that is kept", kept));
-  if (!nodes.value.name.empty()) nodes.columns.push_back(nodes.value);
-  make_names_differ(nodes.columns, {"lon", "lat"});
-  const files::Format format = files::format_of("", name).value_or(files::Format::csv);
-  write_nodes(file, format == files::Format::geojson ? format : files::Format::csv, nodes.points,
-              {nodes.given, {}, nodes.columns, {}});
-  file.commit();
-}
-
 }  // namespace
 
 void drop_duplicates(Nodes& nodes, const Input& input) {
   const Distance& within = input.within;
-  if (!input.list.empty() && !input.drops())
-    throw CLI::ValidationError("--list-duplicates",
-                               "lists what --duplicates first or mean drops: say one of them");
   if (!input.drops() && within.radians == 0) return;
   const std::vector<files::Duplicate> duplicates =
       with_nodes(nodes, [&] { return duplicates_within(nodes.points, within.radians); });
-  if (!input.list.empty()) list(nodes, duplicates, input.list);
   if (duplicates.empty()) return;
   const bool means = input.duplicates == Duplicates::mean;
   if (!input.drops())

@@ -62,15 +62,14 @@ struct Input {
   std::string file;
   files::ReadOptions read;
   Duplicates duplicates = Duplicates::error;
-  Distance within;   ///< nodes this near to each other are in the same place
-  std::string list;  ///< file for the nodes that are dropped; empty: none
+  Distance within;  ///< nodes this near to each other are in the same place
 
   bool drops() const { return duplicates != Duplicates::error; }
 };
 void add_input(CLI::App& app, Input& input);
 /// --skip-missing: `what` must not be missing.
 void add_skip_missing(CLI::App& app, files::ReadOptions& read, const char* what);
-/// --duplicates, --duplicates-within, --list-duplicates.
+/// --duplicates, --duplicates-within.
 void add_duplicates(CLI::App& app, Input& input);
 
 /// OUT and its format.

@@ -404,16 +404,7 @@ def test_tables():
         assert vtu_values("mesh.vtu", "line") == ["2", "3", "4", "6"]
         assert vtu_values("mesh.vtu", "lon") == ["-150.1", "30", "170.7", "20.3"]
         assert vtu_values("mesh.vtu", "mag") == ["4.5", value, "nan", "1"]
-    output("triangulate quakes.csv --duplicates first --list-duplicates dropped.csv -o mesh.vtu")
-    assert read("dropped.csv") == "lon,lat,node,kept,line,time,mag,place\n30,40,4,2,5,2020-01-04,5,again\n"
     skip = "--skip-missing --duplicates"
-    output(f"interpolate quakes.csv --variable mag {skip} mean --list-duplicates a.geojson --to-points quakes.csv -o out.txt")
-    (dropped,) = features("a.geojson")
-    assert dropped["properties"] == {"lon": 30, "lat": 40, "node": 4, "kept": 2, "line": 5, "mag": 5}
-    output("triangulate - --duplicates first --list-duplicates none.csv -o mesh.off", "10 20\n100 40\n20 -50\n")
-    assert len(lines("none.csv")) == 1
-    refuses(2, "triangulate quakes.csv --list-duplicates none.csv -o failed.vtu",
-            "--list-duplicates: lists what --duplicates first or mean drops")
     assert output("info quakes.csv").splitlines()[-1] == "duplicate        node 2 (line 3) and node 4 (line 5)"
     assert json.loads(output("info quakes.csv --json"))["duplicate_pairs"] == [[2, 4]]
     # Columns by name and number; the value of interpolate.
