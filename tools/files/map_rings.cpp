@@ -362,46 +362,4 @@ std::vector<MapRing> MapLines::polygons(std::size_t face) const {
   return polygons;
 }
 
-std::vector<MapRing> MapLines::lines(std::int32_t from, std::int32_t to) const {
-  if (dot(point(from), point(to)) < -1 + 1e-12)
-    throw NoMesh("nodes " + std::to_string(from) + " and " + std::to_string(to) +
-                 " are opposite each other: no arc joins them");
-  MapRing corners{at(from)};
-  if (leads_through_pole(point(from), point(to))) {
-    corners.push_back(pole(point(from).z + point(to).z));
-  } else {
-    for (const MapCorner& corner : corners_between(from, to)) corners.push_back(corner);
-  }
-  corners.push_back(at(to));
-  move_to_poles(corners);
-  std::vector<MapRing> parts{{corners[0]}};
-  for (std::size_t k = 1; k < corners.size(); ++k) {
-    MapCorner p = parts.back().back(), q = corners[k];
-    q.turn = 0;
-    if (is_pole(p)) {  // its line begins on the other meridian
-      p.lon = q.lon;
-      parts.push_back({p});
-    } else if (is_pole(q)) {
-      q.lon = p.lon;
-    } else if (const int turn = turn_after(p, q); turn != 0) {
-      q.turn = turn;
-      MapCorner c = at_meridian(p, q, 180.0, turn > 0 ? 0 : -1);
-      c.turn = q.turn = 0;
-      c.lon = 180.0 * turn;
-      parts.back().push_back(c);
-      c.lon = -c.lon;
-      parts.push_back({c});
-    }
-    parts.back().push_back(q);
-  }
-  for (MapRing& part : parts)
-    part.erase(
-        std::unique(part.begin(), part.end(),
-                    [](const MapCorner& p, const MapCorner& q) { return p.lon == q.lon && p.lat == q.lat; }),
-        part.end());
-  parts.erase(std::remove_if(parts.begin(), parts.end(), [](const MapRing& part) { return part.size() < 2; }),
-              parts.end());
-  return parts;
-}
-
 }  // namespace files

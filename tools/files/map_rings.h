@@ -52,9 +52,6 @@ class MapLines {
 
   /// The polygons of a face, cut at the dateline. Empty if the face is narrower than rounding of its corners.
   std::vector<MapRing> polygons(std::size_t face) const;
-  /// The arc between two of faces.points, numbered from 1, as open lines within 0.001 degrees of it, cut at
-  /// the dateline and at a pole.
-  std::vector<MapRing> lines(std::int32_t from, std::int32_t to) const;
 
  private:
   const Point& point(std::int32_t corner) const { return faces_.numbered(corner); }

@@ -236,24 +236,10 @@ Faces triangle_faces(const Mesh& mesh) {
 }
 
 std::vector<std::int32_t> hull_of(const Mesh& mesh) {
-  if (!mesh.has_boundary()) throw NoMesh("the nodes surround the sphere: they have no hull");
   std::vector<std::int32_t> corners(mesh.points.size());
   corners.resize(
       static_cast<std::size_t>(pstripack::boundary_nodes(mesh.lists(), corners.data()).boundary_nodes));
   return corners;
-}
-
-Links links_of(const Mesh& mesh) {
-  const pstripack::Directions nodes(mesh.points.data(), mesh.points.size());
-  Links links;
-  const std::vector<std::int32_t> ends = edges_of(faces_of({}, triangles_of(mesh))).nodes;
-  for (std::size_t k = 0; k < ends.size(); k += 2) {
-    const double length = arc_length(direction_of(nodes, ends[k] - 1), direction_of(nodes, ends[k + 1] - 1));
-    if (mesh.longest > 0 && length > mesh.longest) continue;
-    links.nodes.insert(links.nodes.end(), {ends[k], ends[k + 1]});
-    links.length.push_back(length);
-  }
-  return links;
 }
 
 namespace {
@@ -314,16 +300,11 @@ std::vector<double> areas(const Faces& faces) {
 
 namespace {
 
-Columns area_columns(const Faces& faces) {
-  Column area{"area", "area of the face on the unit sphere", "sr", areas(faces)};
-  Column area_km2{"area_km2", "area of the face on a sphere of radius 6371 km", "km2"};
-  for (const double a : area.numbers) area_km2.numbers.push_back(a * kEarthRadius * kEarthRadius);
-  return {area, area_km2};
-}
-
 /// The columns of faces that we compute. `nodes`: of triangles, as given.
 Columns measures_of(const Faces& faces, const std::vector<Point>& nodes) {
-  Columns columns = area_columns(faces);
+  Columns columns{{"area", "area of the face on the unit sphere", "sr", areas(faces)},
+                  {"area_km2", "area of the face on a sphere of radius 6371 km", "km2"}};
+  for (const double a : columns[0].numbers) columns[1].numbers.push_back(a * kEarthRadius * kEarthRadius);
   if (faces.centres.empty()) {
     const auto radius = [](const pstripack::Directions& at, auto a, auto b, auto c) {
       return kEarthRadius *
@@ -342,24 +323,6 @@ Columns measures_of(const Faces& faces, const std::vector<Point>& nodes) {
 }
 
 }  // namespace
-
-Faces hull_face(const Mesh& mesh) {
-  const std::vector<double> of_triangles = triangle_faces(mesh).area;
-  Faces hull;
-  std::vector<std::size_t> corners;
-  for (const std::int32_t node : hull_of(mesh)) {
-    corners.push_back(static_cast<std::size_t>(node) - 1);
-    hull.corner.push_back(static_cast<std::int32_t>(corners.size()));
-  }
-  hull.points = unit(values_at(mesh.points, corners));
-  hull.given_points = at_nodes(mesh.given, corners);
-  hull.begin = {0, corners.size()};
-  hull.area = {std::accumulate(of_triangles.begin(), of_triangles.end(), 0.0)};
-  hull.columns_of_faces = area_columns(hull);
-  hull.columns_of_faces.push_back(
-      whole_numbers("corners", "number of corners", {static_cast<double>(corners.size())}));
-  return hull;
-}
 
 void add_columns(Faces& faces, const Mesh& mesh) {
   const bool are_cells = !faces.centres.empty();

@@ -144,18 +144,8 @@ std::vector<double> areas(const Faces& faces);
 /// The triangles without a side longer than mesh.longest as faces.
 Faces triangle_faces(const Mesh& mesh);
 
-/// The convex hull of the nodes as a face, with its area in sr and km2 and its number of corners as columns.
-/// Throws NoMesh if the nodes surround the sphere.
-Faces hull_face(const Mesh& mesh);
-/// The numbers of its corners, counterclockwise. As hull_face().
+/// The numbers of the corners of the nodes' convex hull, counterclockwise, of a mesh with a boundary.
 std::vector<std::int32_t> hull_of(const Mesh& mesh);
-
-/// The arcs of the triangulation that are not longer than mesh.longest, in increasing order of their nodes.
-struct Links {
-  std::vector<std::int32_t> nodes;  ///< two for each link, the smaller first
-  std::vector<double> length;       ///< radians
-};
-Links links_of(const Mesh& mesh);
 
 /// The Voronoi diagram: one face per node; sides of half a turn have a corner in their middle. If the nodes
 /// lie in a hemisphere, the cells of the boundary nodes share the rest of the sphere, as in STRIPACK's

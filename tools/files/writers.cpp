@@ -148,26 +148,20 @@ void write_fesom(OutputFile& file, const Mesh& mesh) {
   beside.commit();
 }
 
-/// Columns node1, node2, ...: numbers of nodes in the input, of which each row has `count`.
-Columns node_columns(const std::vector<std::int32_t>& nodes, std::size_t count, const Columns& of_nodes) {
-  Columns columns;
-  const Column* const numbers = find(of_nodes, "node");
-  for (std::size_t k = 0; k < count; ++k) {
-    Column& column = columns.emplace_back(whole_numbers(fmt::format("node{}", k + 1), "", {}));
-    for (std::size_t i = k; i < nodes.size(); i += count)
-      column.numbers.push_back(numbers == nullptr ? nodes[i]
-                                                  : numbers->numbers[static_cast<std::size_t>(nodes[i]) - 1]);
-  }
-  return columns;
-}
-
 /// The table of a CSV file. A row of a cell: the coordinates and columns of its node. A row of a triangle:
-/// the numbers of its corners and its columns.
+/// the numbers of its corners in the input, node1 to node3, and its columns.
 Columns table_of(const Faces& faces) {
   if (!faces.centres.empty())
     return with_angles(faces.columns_of_faces, angles_of(faces.centres, faces.given_centres, true));
-  if (faces.columns_of_points.empty()) return faces.columns_of_faces;  // the hull
-  Columns table = node_columns(faces.corner, 3, faces.columns_of_points);
+  Columns table;
+  const Column* const numbers = find(faces.columns_of_points, "node");
+  for (std::size_t k = 0; k < 3; ++k) {
+    Column& column = table.emplace_back(whole_numbers(fmt::format("node{}", k + 1), "", {}));
+    for (std::size_t i = k; i < faces.corner.size(); i += 3)
+      column.numbers.push_back(numbers == nullptr
+                                   ? faces.corner[i]
+                                   : numbers->numbers[static_cast<std::size_t>(faces.corner[i]) - 1]);
+  }
   table.insert(table.end(), faces.columns_of_faces.begin(), faces.columns_of_faces.end());
   return table;
 }
@@ -271,19 +265,18 @@ void write_features(OutputFile& file, const Columns& table, const Notes& notes,
   file.print("\n]}}\n");
 }
 
-/// The geometry of these parts: of `kind`, or if there are several of "Multi" and `kind`; null if there are
-/// none.
-void write_geometry(OutputFile& out, const std::string& kind, const std::vector<MapRing>& parts) {
+/// A Polygon or a MultiPolygon; null if there is none.
+void write_polygons(OutputFile& out, const std::vector<MapRing>& parts) {
   if (parts.empty()) return out.print("null");
-  const bool is_one = parts.size() == 1, is_closed = kind == "Polygon";
-  out.print("{{\"type\":\"{}{}\",\"coordinates\":{}", is_one ? "" : "Multi", kind, is_one ? "" : "[");
+  const bool is_one = parts.size() == 1;
+  out.print("{{\"type\":\"{}Polygon\",\"coordinates\":{}", is_one ? "" : "Multi", is_one ? "" : "[");
   for (std::size_t k = 0; k < parts.size(); ++k) {
-    out.print(k > 0 ? ",[{}" : "[{}", is_closed ? "[" : "");
-    for (std::size_t j = 0; j < parts[k].size() + (is_closed ? 1 : 0); ++j) {
+    out.print(k > 0 ? ",[[" : "[[");
+    for (std::size_t j = 0; j <= parts[k].size(); ++j) {
       const MapCorner& c = parts[k][j % parts[k].size()];
       out.print(j > 0 ? ",[{},{}]" : "[{},{}]", c.x(), c.lat);
     }
-    out.print(is_closed ? "]]" : "]");
+    out.print("]]");
   }
   out.print(is_one ? "}}" : "]}}");
 }
@@ -296,7 +289,7 @@ void write_geojson(OutputFile& file, const Faces& faces, const Notes& notes) {
     std::vector<MapRing> polygons = lines.polygons(f);
     for (MapRing& ring : polygons)
       if (faces.variant.clockwise) std::reverse(ring.begin(), ring.end());
-    write_geometry(file, "Polygon", polygons);
+    write_polygons(file, polygons);
   });
 }
 
@@ -388,30 +381,6 @@ void write_mesh(OutputFile& file, Format format, const Mesh& mesh) {
   if (format == Format::ugrid) return write_ugrid(file, faces, mesh.points, mesh.density, mesh.notes);
   if (format == Format::gmsh) return write_gmsh(file, faces);
   write_faces(file, format, faces, mesh.notes);
-}
-
-void write_links(OutputFile& file, Format format, const Mesh& mesh) {
-  const Links links = links_of(mesh);
-  Columns table = node_columns(links.nodes, 2, mesh.columns);
-  Column& length = table.emplace_back(Column{"length_km", "", "km"});
-  for (const double l : links.length) length.numbers.push_back(l * kEarthRadius);
-  if (format == Format::csv) return write_csv(file, table);
-  if (format != Format::geojson) refuse(file, format, "cannot hold links: --to geojson or csv can");
-  Faces nodes;
-  nodes.points = unit(mesh.points);
-  nodes.given_points = mesh.given;
-  nodes.begin = {0};
-  const MapLines lines(nodes);
-  write_features(file, table, mesh.notes, [&](std::size_t i) {
-    write_geometry(file, "LineString", lines.lines(links.nodes[2 * i], links.nodes[2 * i + 1]));
-  });
-}
-
-void write_hull(OutputFile& file, Format format, const Mesh& mesh) {
-  if (format != Format::csv) return write_faces(file, format, hull_face(mesh), mesh.notes);
-  std::vector<std::size_t> corners;
-  for (const std::int32_t node : hull_of(mesh)) corners.push_back(static_cast<std::size_t>(node) - 1);
-  write_nodes(file, format, values_at(mesh.points, corners), at_nodes(mesh, corners));
 }
 
 void write_nodes(OutputFile& file, Format format, const std::vector<Point>& points,

@@ -51,10 +51,6 @@ void write_mesh(OutputFile& file, Format format, const Mesh& mesh);
 /// Writes any polygons: ugrid, scrip, esmf, vtu, off, gmt, geojson, csv. Throws std::runtime_error for other
 /// formats.
 void write_faces(OutputFile& file, Format format, const Faces& faces, const Notes& notes = {});
-/// Writes the arcs of the triangulation, with their lengths: geojson, csv.
-void write_links(OutputFile& file, Format format, const Mesh& mesh);
-/// Writes the convex hull of the nodes as a polygon, in csv as its nodes: formats of write_faces().
-void write_hull(OutputFile& file, Format format, const Mesh& mesh);
 /// Writes nodes alone: geojson, csv, xyz, lonlat, netcdf, raw. NetCDF also holds density, columns and notes,
 /// GeoJSON columns and notes, CSV columns.
 void write_nodes(OutputFile& file, Format format, const std::vector<Point>& points,

@@ -19,8 +19,7 @@ struct Options {
   Output output;
   std::string clip_to;  ///< of `voronoi`: a box, or a file of polygons
   bool clip_to_hull = false;
-  std::string what = "triangles";  ///< of `triangulate`
-  Distance longest;
+  Distance longest;  ///< of `triangulate`
 };
 
 /// `write(file, mesh)` writes the result and returns its description for the last line.
@@ -45,18 +44,8 @@ void run(Options& options, const Write& write) {
 void triangulate(Options& options) {
   if (options.longest.radians == 0 && !options.longest.text.empty())
     throw CLI::ValidationError("--longest", "'" + options.longest.text + "' leaves out everything");
-  if (options.longest.radians > 0 && options.what == "hull")
-    throw CLI::ValidationError("--longest", "the hull is that of all nodes: leave out --longest");
   run(options, [&](files::OutputFile& file, files::Mesh& mesh) {
     mesh.longest = options.longest.radians;
-    if (options.what == "hull") {
-      write_hull(file, options.output.format, mesh);
-      return "hull of " + counted(files::hull_of(mesh).size(), "node");
-    }
-    if (options.what == "links") {
-      write_links(file, options.output.format, mesh);
-      return counted(files::links_of(mesh).length.size(), "link");
-    }
     const std::size_t written = files::triangles_to_write(mesh).size() / 3;
     if (written == 0) throw files::NoMesh("each triangle has a side longer than " + options.longest.text);
     if (written < mesh.triangles())
@@ -126,13 +115,8 @@ void add_triangulate(CLI::App& app, Command& chosen) {
           chosen);
   CLI::App* const sub = app.get_subcommand("triangulate");
   add_radius(*sub, options->output.radius, kRadiusOfMpas);
-  option(*sub, "--what WORD", options->what,
-         "triangles, links (their sides, with lengths: GeoJSON, CSV) or hull (a polygon; CSV: its nodes)")
-      ->capture_default_str()
-      ->check(one_of({"triangles", "links", "hull"}));
-  add_distance(
-      *sub, "--longest", options->longest,
-      "leave out triangles with a side longer than this, and longer links: 500km, 20m, 5deg, 0.1rad");
+  add_distance(*sub, "--longest", options->longest,
+               "leave out triangles with a side longer than this: 500km, 20m, 5deg, 0.1rad");
 }
 
 void add_voronoi(CLI::App& app, Command& chosen) {

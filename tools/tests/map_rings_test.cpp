@@ -225,50 +225,6 @@ const std::vector<Region> kRegions{{170, 190, 25, 50},      {-180, 180, -60, 60}
                                    {0, 180, -90, 90},       {0, 359, 10, 90},      {90, 100, 89, 90},
                                    {30, 30.001, 40, 40.001}};
 
-TEST(map, has_arcs_as_open_lines_cut_at_the_dateline_and_at_a_pole) {
-  Faces nodes;
-  const std::pair<double, double> places[] = {{170, 10}, {-100, 60}, {20, 70},  {-160, 80},
-                                              {0, 90},   {180, 0},   {-170, 5}, {130, -50},
-                                              {10, 20},  {10, -90},  {-180, 30}};
-  for (const auto& [lon, lat] : places) {
-    nodes.points.push_back(point_sets::from_degrees(lon, lat));
-    nodes.given_points.lon.push_back(lon);
-    nodes.given_points.lat.push_back(lat);
-  }
-  nodes.begin = {0};
-  const MapLines map(nodes);
-  const auto n = static_cast<std::int32_t>(nodes.points.size());
-  for (std::int32_t from = 1; from <= n; ++from)
-    for (std::int32_t to = from + 1; to <= n; ++to) {
-      const Point &a = nodes.points[static_cast<std::size_t>(from) - 1],
-                  &b = nodes.points[static_cast<std::size_t>(to) - 1];
-      if (dot(a, b) == -1) {
-        EXPECT_THROW(map.lines(from, to), NoMesh);
-        continue;
-      }
-      const std::vector<MapRing> lines = map.lines(from, to);
-      double length = 0;
-      for (const MapRing& line : lines)
-        for (std::size_t k = 0; k + 1 < line.size(); ++k) {
-          EXPECT_TRUE(std::fabs(line[k].lon) <= 180 && line[k].turn == 0);
-          const double x = line[k + 1].lon - line[k].lon, y = line[k + 1].lat - line[k].lat;
-          EXPECT_LT(std::fabs(x), 180) << from << ' ' << to;
-          for (const double t : {0.0, 0.3, 0.5, 0.9, 1.0})
-            EXPECT_LT(
-                distance_to_arc(point_sets::from_degrees(line[k].lon + t * x, line[k].lat + t * y), a, b),
-                0.00101 / kRadian)
-                << from << ' ' << to;
-          length += angle_between(point_sets::from_degrees(line[k].lon, line[k].lat),
-                                  point_sets::from_degrees(line[k + 1].lon, line[k + 1].lat));
-        }
-      EXPECT_NEAR(length, angle_between(a, b), 1e-7) << from << ' ' << to;
-    }
-  EXPECT_EQ(map.lines(1, 7).size(), 2u);   // the dateline
-  EXPECT_EQ(map.lines(3, 4).size(), 2u);   // the pole
-  EXPECT_EQ(map.lines(4, 6).size(), 1u);   // to the dateline, from the east
-  EXPECT_EQ(map.lines(6, 11).size(), 1u);  // along it
-}
-
 TEST(cells, of_a_region_and_of_the_hull_have_each_side_once_each_way) {
   Points points;
   for (const double metres : {10.0, 1e3}) {

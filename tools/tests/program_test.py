@@ -519,7 +519,7 @@ def write_json(name, value):
     write(name, json.dumps(value))
 
 
-def test_triangles_cells_links_and_hulls_on_maps():
+def test_triangles_and_cells_on_maps():
     write("table.csv", 'lon,lat,depth (km),place\n170,-10,7.25,"a, ""b"" c"\n-170,-10,,c\n180,10,-1,"d # e"\n')
     # A row for each triangle, cell or node.
     output("triangulate table.csv -o mesh.csv")
@@ -532,23 +532,11 @@ def test_triangles_cells_links_and_hulls_on_maps():
     assert triangle["geometry"]["type"] == "MultiPolygon"
     for corner in "170,-10", "180,10", "-180,10", "-170,-10":
         assert f"[{corner}]" in read("mesh.geojson")
-    output("triangulate table.csv --what links -o links.geojson")
-    kinds = [feature["geometry"]["type"] for feature in features("links.geojson")]
-    assert sorted(kinds) == ["LineString", "LineString", "MultiLineString"]
-    messages("triangulate table.csv --what links --longest 2400km -o links.csv", ", 1 link; ")
-    assert [line[:8] for line in lines("links.csv")] == ["node1,no", "1,2,2189"]
-    output("triangulate table.csv --what hull -o hull.geojson")
-    output("triangulate table.csv --what hull -o hull.csv")
-    assert features("hull.geojson")[0]["geometry"] == triangle["geometry"]
-    assert [row[2] for row in table("hull.csv")] == ["node", "1", "2", "3"]
     output("points random 20 -o nodes.txt")
     left = int(re.search(r"nodes.txt: (\d*) triangles with a side longer than 60deg left out$",
                          messages("triangulate nodes.txt --longest 60deg -o some.csv"), re.MULTILINE)[1])
     assert len(lines("some.csv")) == 37 - left
     for code, arguments, words in (
-            (1, "nodes.txt --what hull -o a.csv", "nodes.txt: the nodes surround the sphere: they have no hull"),
-            (2, "table.csv --what hull --longest 1km -o a.csv", "the hull is that of all nodes: leave out --longest"),
-            (1, "table.csv --what links -o a.off", "off cannot hold links: --to geojson or csv can"),
             (1, "table.csv --longest 1000km -o a.off", "each triangle has a side longer than 1000km"),
             (1, "-q nodes.txt --longest 5000km -o a.lists", "holds whole triangulations: leave out --longest"),
             (2, "table.csv --longest 0km -o a.off", "--longest: '0km' leaves out everything"),
