@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "error_of.h"
 #include "point_sets.h"
 #include "scvt/errors.h"
 #include "scvt/first_generators.h"
@@ -109,12 +110,8 @@ TEST(density_on_grid, goes_to_the_mean_of_the_last_row_at_a_pole_that_has_no_row
 
 TEST(density_on_grid, refuses_what_does_not_cover_the_sphere) {
   const auto refuses = [](const files::Grid& grid, const std::string& words) {
-    try {
-      density_on_grid(grid, values_on(grid));
-      ADD_FAILURE() << words;
-    } catch (const std::runtime_error& e) {
-      EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
-    }
+    const std::string error = error_of([&] { density_on_grid(grid, values_on(grid)); });
+    EXPECT_NE(error.find(words), std::string::npos) << error;
   };
   const std::vector<double> lon = ticks(-175, 10, 36), lat = ticks(-85, 10, 18);
   refuses({ticks(-20, 10, 10), lat}, "the grid leaves out 270 degrees of longitude");

@@ -94,13 +94,10 @@ def check_data():
     assert data["words"] == [row["kind"] for row in given] and data["labels"][:2] == ["Où</script>", "b"], data["labels"]
     assert data["centre"] == [10, 50] and data["radius"] == 20 and "ticks" not in data
 
-    # A region. Triangles that are not those of Delaunay.
+    # A region.
     (FOLDER / "region.html").write_text(run("plot", "region.txt", "--to", "html", "-o", "-"))
     data = data_of("region.html")
     assert data["cells"] is False and "shades" not in data
-    (FOLDER / "other.off").write_text("OFF\n4 2 0\n0.9 0.3 0.3\n0.9 -0.3 0.3\n0.9 -0.3 -0.3\n0.9 0.3 -0.31\n3 0 1 3\n3 1 2 3\n")
-    run("plot", "other.off", "-o", "other.html")
-    assert triangles(data_of("other.html")["triangles"]) == [(0, 1, 3), (1, 2, 3)]
 
     run("points", "icosahedral", 40962, "-o", "many.txt")
     run("plot", "many.txt", "--what", "cells", "--colour", "area", "-o", "many.html")

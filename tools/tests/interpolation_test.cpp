@@ -390,22 +390,6 @@ TEST(nearest, is_found_across_the_far_side_of_a_region) {
 }
 
 #ifdef _OPENMP
-TEST(values, are_the_same_bits_on_any_number_of_threads) {
-  const Points nodes = point_sets::make("healpix", 1000);
-  const std::vector<double> values = random_values(nodes.size());
-  const Interpolation in = interpolation_between(nodes);
-  const Points at = point_sets::make("latlon", 20000);  // many on arcs
-  for (const Method method : {Method::linear, Method::natural}) {
-    std::vector<std::vector<double>> all;
-    for (const int threads : {1, 2, 3}) {
-      omp_set_num_threads(threads);
-      all.push_back(values_at(in, at, values, method));
-    }
-    EXPECT_EQ(all[0], all[1]);
-    EXPECT_EQ(all[0], all[2]);
-  }
-}
-
 TEST(memory, that_runs_out_on_threads_is_an_exception) {
   omp_set_num_threads(2);
   const files::Mesh mesh = files::triangulate(point_sets::make("random", 2500));

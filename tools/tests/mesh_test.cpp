@@ -28,38 +28,12 @@ TEST(mesh, of_its_own_triangles_has_the_same_lists) {
   }
 }
 
-TEST(mesh, counts_its_triangles) {
-  const Points octant{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  EXPECT_EQ(triangulate(octant).triangles(), 1u);
-  for (const char* const family : {"random", "hemisphere", "cap"}) {
-    const Mesh mesh = triangulate(point_sets::make(family, 300));
-    EXPECT_EQ(mesh.triangles(), triangles_of(mesh).size() / 3) << family;
-  }
-}
-
 TEST(mesh, does_not_need_its_first_three_nodes_off_one_great_circle) {
   Points points{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}};
   for (const Point& p : point_sets::make("random", 200)) points.push_back(p);
   const Mesh mesh = triangulate(points);
   EXPECT_TRUE(pstripack::is_valid(points.data(), mesh.lists()));
   EXPECT_TRUE(pstripack::lists_are_canonical(mesh.lists()));
-}
-
-TEST(mesh, needs_nodes_off_one_great_circle) {
-  EXPECT_THROW(triangulate({{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}), NoMesh);
-  EXPECT_THROW(triangulate({{1, 0, 0}, {0, 1, 0}}), NoMesh);
-}
-
-TEST(mesh, names_the_nodes_that_coincide) {
-  Points points = point_sets::make("random", 100);
-  points[70] = points[30];
-  try {
-    triangulate(points);
-    FAIL() << "two nodes in one place";
-  } catch (const CoincidentNodes& e) {
-    EXPECT_EQ(e.first, 30u);
-    EXPECT_EQ(e.second, 70u);
-  }
 }
 
 TEST(duplicates, are_all_nodes_but_the_first_in_each_place) {

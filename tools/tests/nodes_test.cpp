@@ -9,8 +9,8 @@
 #include <cstdio>
 #include <fstream>
 #include <limits>
-#include <stdexcept>
 
+#include "error_of.h"
 #include "point_sets.h"
 
 namespace files {
@@ -35,17 +35,8 @@ Nodes read_bytes(const std::string& bytes, const ReadOptions& options = {}) {
   return read(Written(bytes).name(), options);
 }
 
-std::string error_of(const std::string& bytes, const ReadOptions& options = {}) {
-  try {
-    read_bytes(bytes, options);
-  } catch (const std::runtime_error& e) {
-    return e.what();
-  }
-  return "no error";
-}
-
 void expect_error(const std::string& bytes, const std::string& words, const ReadOptions& options = {}) {
-  const std::string error = error_of(bytes, options);
+  const std::string error = error_of([&] { read_bytes(bytes, options); });
   EXPECT_NE(error.find(words), std::string::npos) << error;
 }
 
@@ -410,7 +401,7 @@ TEST(messages, quote_sixty_characters_of_a_file_without_control_characters) {
                R"(the type is 'Fea\x07\n)" + std::string(55, 'a') + "...'");
   expect_error("{\"" + more + "\": " + more, "invalid literal; last read: '");
   expect_error("{" + std::string(1000, '1'), "unexpected number literal; expected string literal");
-  const std::string error = error_of("{\"type\": \"" + std::string(1000, 'b') + "\x01");
+  const std::string error = error_of([] { read_bytes("{\"type\": \"" + std::string(1000, 'b') + "\x01"); });
   EXPECT_LT(error.size(), 400u) << error;
 }
 

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <set>
 #include <sstream>
 
+#include "error_of.h"
 #include "files/measures.h"
 #include "pictures/coasts.h"
 #include "pictures/colours.h"
@@ -266,15 +266,6 @@ boost::property_tree::ptree parsed(const std::string& svg) {
   boost::property_tree::ptree tree;
   boost::property_tree::read_xml(in, tree);  // throws unless well-formed
   return tree;
-}
-
-std::string error_of(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const std::runtime_error& e) {
-    return e.what();
-  }
-  return "none";
 }
 
 std::size_t count(const std::string& text, const std::string& what) {
