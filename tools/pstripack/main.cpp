@@ -94,14 +94,9 @@ int run(int argc, char** argv) {
       ->check(CLI::Range(1, 4096).description(""));
   add_serial(app);
   Command chosen;
-  add_triangulate(app, chosen);
-  add_voronoi(app, chosen);
-  add_info(app, chosen);
-  add_points(app, chosen);
-  add_convert(app, chosen);
-  add_scvt(app, chosen);
-  add_interpolate(app, chosen);
-  add_plot(app, chosen);
+  for (const auto add :
+       {add_triangulate, add_voronoi, add_info, add_points, add_convert, add_scvt, add_interpolate, add_plot})
+    add(app, chosen);
   files::on_leftover() = say;
   try {
     app.parse(argc, argv);

@@ -188,10 +188,10 @@ CLI::Option* add_limited_area(CLI::App& app, std::string& text, std::string& sid
              "keep the cells of a limited area: WEST,EAST,SOUTH,NORTH, circle:KM,LON,LAT, or a file "
              "of GeoJSON polygons or of MPAS-Limited-Area, NAME.pts, and 7 layers of cells around "
              "it, with their bdyMaskCell");
-  add_words(app, "--sides", {"map", "great-circle"},
-            "sides of the region: map (straight in longitude and latitude) or great-circle, followed as "
-            "MPAS-Limited-Area does; always so of NAME.pts [map]",
-            [&sides](const std::string& word) { sides = word; })
+  option(app, "--sides WORD", sides,
+         "sides of the region: map (straight in longitude and latitude) or great-circle, followed as "
+         "MPAS-Limited-Area does; always so of NAME.pts [map]")
+      ->check(one_of({"map", "great-circle"}))
       ->needs(region);
   return region;
 }
@@ -330,20 +330,21 @@ namespace {
 /// Sets the numbers of each first node to the mean over its duplicates; missing numbers are ignored.
 void take_means(Column& column, const std::vector<files::Duplicate>& duplicates) {
   if (column.numbers.empty()) return;
-  std::map<std::size_t, std::vector<double>> groups;
+  std::map<std::size_t, std::pair<double, double>> sums;  // and how many numbers
+  const auto add = [&](std::size_t first, double number) {
+    if (std::isnan(number)) return;
+    sums[first].first += number;
+    ++sums[first].second;
+  };
   for (const files::Duplicate& d : duplicates) {
-    std::vector<double>& group = groups.try_emplace(d.first, 1, column.numbers[d.first]).first->second;
-    group.push_back(column.numbers[d.node]);
+    if (sums.count(d.first) == 0) add(d.first, column.numbers[d.first]);
+    add(d.first, column.numbers[d.node]);
   }
-  for (auto& [first, group] : groups) {
-    group.erase(std::remove_if(group.begin(), group.end(), [](double v) { return std::isnan(v); }),
-                group.end());
-    if (group.empty()) continue;
-    double sum = 0;
-    for (const double v : group) sum += v;
-    column.numbers[first] = sum / static_cast<double>(group.size());
+  for (const auto& [first, sum] : sums) {
+    const double mean = sum.first / sum.second;
+    column.numbers[first] = mean;
     column.texts.clear();
-    if (column.numbers[first] != std::floor(column.numbers[first])) column.whole = false;
+    if (mean != std::floor(mean)) column.whole = false;
   }
 }
 

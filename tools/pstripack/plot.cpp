@@ -21,7 +21,7 @@ using pictures::MeshOptions;
 struct Options {
   Input input;
   MeshOptions mesh;
-  std::string file, to, what = "triangles", view, colour = "none", box, range;
+  std::string file, to, view, colour = "none", box, range;
   std::optional<std::string> title;
 };
 
@@ -111,7 +111,6 @@ void plot(Options& options) {
     throw CLI::ValidationError("--output",
                                options.file + ": expected FILE.svg or FILE.html, or --to svg or html");
   MeshOptions& wanted = options.mesh;
-  if (options.what == "cells") wanted.what = MeshOptions::What::cells;
   if (!options.view.empty()) set_view(options.view, wanted);
   set_colour(options.colour, wanted);
   if (!options.box.empty()) set_box(options, wanted);
@@ -166,9 +165,9 @@ void add_plot(CLI::App& app, Command& chosen) {
       ->required();
   option(*sub, "--to FORMAT", options->to, "svg or html [by the suffix of the file]")
       ->check(one_of({"svg", "html"}));
-  option(*sub, "--what WORD", options->what, "triangles, or cells of the Voronoi diagram")
-      ->capture_default_str()
-      ->check(one_of({"triangles", "cells"}));
+  add_choice(*sub, "--what", options->mesh.what,
+             {{"triangles", MeshOptions::What::triangles}, {"cells", MeshOptions::What::cells}},
+             "triangles, or cells of the Voronoi diagram [triangles]");
   option(*sub, "--view VIEW", options->view,
          "orthographic or lonlat, or with a centre orthographic:LON,LAT [the middle of the nodes]");
   option(*sub, "--zoom DEGREES", options->mesh.radius, "show this many degrees around the centre [all nodes]")

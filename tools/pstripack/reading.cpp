@@ -19,11 +19,6 @@ CLI::Validator one_of(std::vector<std::string> words) {
   return CLI::Validator(check, "");
 }
 
-CLI::Option* add_words(CLI::App& app, const char* name, std::vector<std::string> words, const char* text,
-                       const std::function<void(const std::string&)>& set) {
-  return app.add_option_function(name, set, text)->type_name("WORD")->check(one_of(std::move(words)));
-}
-
 void add_reading(CLI::App& app, files::ReadOptions& read) {
   read.lengths_decide = true;
   using namespace files;

@@ -2,7 +2,6 @@
 // The options that say how a file of nodes is read, for pstripack and stripack-compare.
 
 #include <CLI/CLI.hpp>
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -22,17 +21,16 @@ CLI::Option* option(CLI::App& app, const std::string& name, T& value, const std:
 /// Accepts one of these words.
 CLI::Validator one_of(std::vector<std::string> words);
 
-/// Adds an option that is one of these words; set(word) takes it.
-CLI::Option* add_words(CLI::App& app, const char* name, std::vector<std::string> words, const char* text,
-                       const std::function<void(const std::string&)>& set);
-
 /// Adds an option that is one of these words, each of which stands for an enumerator.
 template <class Enum>
 void add_choice(CLI::App& app, const char* name, Enum& value, const std::map<std::string, Enum>& choices,
                 const char* text) {
   std::vector<std::string> words;
   for (const auto& [word, choice] : choices) words.push_back(word);
-  add_words(app, name, words, text, [&value, choices](const std::string& word) { value = choices.at(word); });
+  app.add_option_function<std::string>(
+         name, [&value, choices](const std::string& word) { value = choices.at(word); }, text)
+      ->type_name("WORD")
+      ->check(one_of(words));
 }
 
 /// --from, --columns, --coordinates, --units.
