@@ -7,7 +7,7 @@ string(REPLACE "/*SCRIPT*/" "${globe_js}" globe_html "${globe_html}")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${pictures}/globe.html ${pictures}/globe.js)
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/globe_html.cpp @ONLY CONTENT
   "// globe.html with globe.js, by tools/globe.cmake.
-#include \"pictures/globe_html.h\"
+#include \"pictures/globe.h\"
 namespace pictures {
 const char* const kGlobeHtml = R\"html(@globe_html@)html\";
 }

@@ -4,7 +4,7 @@ include_guard(GLOBAL)
 set(point_sets_dir ${CMAKE_CURRENT_LIST_DIR}/point_sets)
 set(point_set_sources angles.cpp distributions.cpp families/close.cpp families/curves.cpp families/even.cpp
                       families/instruments.cpp families/lattices.cpp families/uneven.cpp numbers.cpp point_sets.cpp
-                      random_numbers.cpp shapes.cpp)
+                      shapes.cpp)
 list(TRANSFORM point_set_sources PREPEND ${point_sets_dir}/)
 add_library(point_sets STATIC ${point_set_sources})
 target_include_directories(point_sets

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "files/measures.h"
-#include "pictures/globe_html.h"
 
 namespace pictures {
 namespace {

@@ -31,6 +31,8 @@ struct Globe {
   std::optional<double> radius;  ///< of the first view, in degrees; none: all nodes
 };
 
+extern const char* const kGlobeHtml;  ///< the text of globe.html, with globe.js in it
+
 /// The HTML file. It needs no other file and no network.
 std::string globe_page(const Globe& globe);
 
