@@ -228,13 +228,9 @@ int32_t pstripack_validate(int32_t n, const double* x, const double* y, const do
       std::snprintf(message, static_cast<std::size_t>(length), "%s", text);
   };
   try {
-    if (n < 3) {
-      say(pstripack_strerror(PSTRIPACK_TOO_FEW_NODES));
-      return PSTRIPACK_TOO_FEW_NODES;
-    }
-    if (n > most_nodes<std::int32_t>()) {
-      say(pstripack_strerror(PSTRIPACK_TOO_MANY_NODES));
-      return PSTRIPACK_TOO_MANY_NODES;
+    if (const std::int32_t code = code_of_count(n); code != PSTRIPACK_OK) {
+      say(pstripack_strerror(code));
+      return code;
     }
     std::vector<Point> p(static_cast<std::size_t>(n));
     for (std::size_t i = 0; i < p.size(); ++i) p[i] = {x[i], y[i], z[i]};

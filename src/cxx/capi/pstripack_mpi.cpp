@@ -121,15 +121,12 @@ class CommEngine final : public Engine {
 };
 CommEngine comm_engine;
 
-/// The first rank on which PSTRIPACK_ORDER differs from that of rank 0; the number of ranks if there is none.
-/// They must agree, because calls are not collective unless it is canonical. Collective.
+/// The first rank on which PSTRIPACK_ORDER differs from that of rank 0; -1 if there is none. They must agree,
+/// because calls are not collective unless it is canonical. Collective.
 int rank_with_another_order(MpiCommunicator& ranks) {
   const OriginalRules& rules = original_rules();
   const std::int64_t order = rules.follow ? 2 * rules.tolerance_in_epsilons + (rules.bitwise ? 1 : 0) : 0;
-  const std::int64_t* const of_rank = ranks.all_gather_one(order);
-  int rank = 0;
-  while (rank < ranks.size() && of_rank[rank] == of_rank[0]) ++rank;
-  return rank;
+  return first_different(order, ranks).rank;
 }
 
 /// Writes the line of a code.
@@ -346,7 +343,7 @@ int32_t pstripack_set_comm(MPI_Comm comm) {
       return 0;
     }
     auto ranks = make_over<MpiCommunicator>(comm);
-    if (const int other = rank_with_another_order(*ranks); other < ranks->size()) {
+    if (const int other = rank_with_another_order(*ranks); other >= 0) {
       if (ranks->rank() == 0)
         std::fprintf(stderr,
                      "pstripack: set_comm: PSTRIPACK_ORDER on rank %d is not that on rank 0 (IER = -7)\n",

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
+
+#include "capi/pstripack.h"
 
 namespace pstripack {
 
@@ -8,6 +11,12 @@ namespace pstripack {
 template <class Int>
 constexpr Int most_nodes() {
   return (std::numeric_limits<Int>::max() - 1) / 6 + 2;
+}
+
+/// The code of TRMESH for n nodes.
+constexpr std::int32_t code_of_count(std::int32_t n) {
+  if (n < 3) return PSTRIPACK_TOO_FEW_NODES;
+  return n > most_nodes<std::int32_t>() ? PSTRIPACK_TOO_MANY_NODES : PSTRIPACK_OK;
 }
 
 }  // namespace pstripack

@@ -42,11 +42,6 @@ std::uint64_t hash_of(const NodeArrays& nodes, std::size_t n) {
   return sum;
 }
 
-std::int32_t code_of_count(std::int32_t n) {
-  if (n < 3) return PSTRIPACK_TOO_FEW_NODES;
-  return n > most_nodes<std::int32_t>() ? PSTRIPACK_TOO_MANY_NODES : PSTRIPACK_OK;
-}
-
 struct CallHeader {
   std::int32_t n = 0;
   Point corners[3] = {};  ///< nodes 1 to 3
@@ -82,15 +77,9 @@ struct Share {
 
 /// The result where ranks disagree in N or in the hash of the coordinates. Collective.
 TrmeshResult disagreement(std::int32_t n, std::int64_t hash, MpiCommunicator& ranks) {
-  const auto first_other = [&](std::int64_t mine) {
-    const std::int64_t* const of_rank = ranks.all_gather_one(mine);
-    const auto is_other = [=](std::int64_t value) { return value != of_rank[0]; };
-    return std::find_if(of_rank, of_rank + ranks.size(), is_other) - of_rank;
-  };
-  auto rank = first_other(n);
-  if (rank == ranks.size()) rank = first_other(hash);
-  const std::int64_t n_there = ranks.all_gather_one(n)[rank];
-  return {PSTRIPACK_RANKS_DISAGREE, n_there, rank};
+  if (const WrongArgument other = first_different(n, ranks); other.rank >= 0)
+    return {PSTRIPACK_RANKS_DISAGREE, other.value, other.rank};
+  return {PSTRIPACK_RANKS_DISAGREE, n, first_different(hash, ranks).rank};
 }
 
 /// For Arrays::on_every_rank, where every rank has all nodes. Collective.

@@ -349,12 +349,8 @@ std::int32_t DistributedMesh::check(std::uint64_t* fingerprint) {
 
 std::int32_t DistributedMesh::gather_stars(std::int32_t root, const ListArrays& lists) {
   if (empty()) return PSTRIPACK_EMPTY_MESH;
-  const std::int64_t* const roots = ranks_.all_gather_one(root);
-  for (int r = 1; r < ranks_.size(); ++r)
-    if (roots[r] != roots[0]) {
-      wrong_argument_ = {r, roots[r]};
-      return PSTRIPACK_RANKS_DISAGREE;
-    }
+  wrong_argument_ = first_different(root, ranks_);
+  if (wrong_argument_.rank >= 0) return PSTRIPACK_RANKS_DISAGREE;
   if (root < kEveryRank || root >= ranks_.size()) return PSTRIPACK_BAD_COMM;
   if (!numbers_are_dense_) return PSTRIPACK_BAD_NUMBER;
   if (total_ > most_nodes<std::int32_t>()) return PSTRIPACK_TOO_MANY_NODES;

@@ -65,6 +65,13 @@ bool on_one_line(const Point& a, const Point& b) {
 
 }  // namespace
 
+WrongArgument first_different(std::int64_t value, Communicator& ranks) {
+  const std::int64_t* const of_rank = ranks.all_gather_one(value);
+  for (int r = 1; r < ranks.size(); ++r)
+    if (of_rank[r] != of_rank[0]) return {r, of_rank[r]};
+  return {};
+}
+
 Numbering check_all(const LocalNodes& points, bool wants_report, bool numbers_are_known,
                     MpiCommunicator& ranks) {
   Numbering numbering;

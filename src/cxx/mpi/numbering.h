@@ -30,6 +30,9 @@ struct WrongArgument {
   std::int64_t value = 0;
 };
 
+/// The first rank that passes another value than rank 0. Collective.
+WrongArgument first_different(std::int64_t value, Communicator& ranks);
+
 /// Properties of all points and their global numbers; the same on every rank, except `check`.
 struct Numbering {
   std::int32_t code = 0;         ///< 0; else a result code: there is no mesh

@@ -196,8 +196,7 @@ TrmeshResult lists_in_original_order(const TrmeshCall& call, ParallelCost* cost)
 TrmeshResult by_best_way(const TrmeshCall& call, bool follow, CallWay* way, Engine* communicator,
                          Engine* pool) {
   if (communicator != nullptr && communicator->takes(call)) return communicator->carry_out(call, way);
-  if (call.n < 3) return {PSTRIPACK_TOO_FEW_NODES};
-  if (call.n > most_nodes<std::int32_t>()) return {PSTRIPACK_TOO_MANY_NODES};
+  if (const std::int32_t code = code_of_count(call.n); code != PSTRIPACK_OK) return {code};
 
   ParallelCost* const cost = way != nullptr ? &way->cost.maximum : nullptr;
   TrmeshResult original{0};
