@@ -1,7 +1,6 @@
 #include "parallel/cost.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace pstripack {
 namespace {
@@ -35,12 +34,8 @@ GroupCost group_cost(Communicator& ranks, const ParallelCost& mine) {
   if (ranks.size() == 1) return group;
   try {
     const Parcels all = ranks.all_gather(&mine, sizeof mine);
-    for (int r = 0; r < ranks.size(); ++r) {
-      if (r == ranks.rank()) continue;
-      ParallelCost other;
-      std::memcpy(&other, all.bytes.data() + all.begin[static_cast<std::size_t>(r)], sizeof other);
-      group.add(other);
-    }
+    for (int r = 0; r < ranks.size(); ++r)
+      if (r != ranks.rank()) group.add(Items<ParallelCost>(all).begin()[r]);
     // memory that ends on a rank while a report is gathered: mpi_allocation_test, which needs MPI
   } catch (const AgreedFailure&) {
     group = GroupCost(mine);  // a report is no reason to fail

@@ -78,18 +78,14 @@ bool Relocation::find_addresses(const LocalNodes& nodes, Communicator& ranks) {
     GlobalNumber number, now;  // now: counted where it has come; kNoNumber where it has gone
   };
   const auto size = static_cast<std::size_t>(ranks.size());
-  const auto for_each_said = [&](const auto& visit) {
+  const Parcels told = exchange_in_agreement(ranks, [&] {
+    std::vector<std::vector<Said>> to(size);
+    const auto tell = [&](const Said& said) { to[meeting_rank(said.number, size)].push_back(said); };
     for (std::size_t i = 0; i < nodes.count; ++i)
       if (has_come(i))
-        visit(Said{nodes.number(i), now_.number({static_cast<RankOfNode>(me_), static_cast<LocalNode>(i)})});
-    for (const Gone& g : gone_) visit(Said{g.number, kNoNumber});
-  };
-  const Parcels told = exchange_in_agreement(ranks, [&] {
-    ParcelWriter writer(size);
-    for_each_said([&](const Said& said) { writer.expect<Said>(meeting_rank(said.number, size)); });
-    writer.make_room();
-    for_each_said([&](const Said& said) { writer.put(meeting_rank(said.number, size), said); });
-    return writer.finish();
+        tell({nodes.number(i), now_.number({static_cast<RankOfNode>(me_), static_cast<LocalNode>(i)})});
+    for (const Gone& g : gone_) tell({g.number, kNoNumber});
+    return packed(to);
   });
   OnAll are_the_same;
   Parcels answers;

@@ -97,16 +97,14 @@ Spread along_a_curve(Communicator& ranks, const std::vector<Point>& points) {
     };
     const std::vector<std::uint64_t> begin = bounds(ranks, targets, first_at);
     const Parcels parcels = exchange_in_agreement(ranks, [&] {
-      ParcelWriter writer(size);
-      std::vector<std::size_t> first{0};
-      for (const std::uint64_t place : begin) first.push_back(first_at(place));
-      first.push_back(items.size());
-      for (std::size_t r = 0; r < size; ++r) writer.expect<Placed>(r, first[r + 1] - first[r]);
-      writer.make_room();
-      for (std::size_t r = 0; r < size; ++r)
-        std::copy(items.data() + first[r], items.data() + first[r + 1],
-                  writer.room<Placed>(r, first[r + 1] - first[r]));
-      return writer.finish();
+      std::vector<std::vector<Placed>> to(size);
+      std::size_t first = 0;
+      for (std::size_t r = 0; r < size; ++r) {
+        const std::size_t last = r + 1 < size ? first_at(begin[r]) : items.size();
+        to[r].assign(items.data() + first, items.data() + last);
+        first = last;
+      }
+      return packed(to);
     });
     in_agreement(ranks, [&] {
       const Items<Placed> here(parcels);
