@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -118,10 +119,12 @@ Division divide(const LocalNodes& nodes, const Corners& corners, const Places& p
   Division division(places);
   GlobalSample sample = sample_of_all(nodes, ranks, options, division);
   Outcome outcome = Outcome::of([&] {
-    division.closing.assign(corners.begin(), corners.end());
+    std::map<GlobalNumber, Point> closing;
+    for (const SentNode& r : corners) closing.emplace(r.number, r.point);
     const std::size_t step = sample.nodes.size() / options.closing_nodes + 1;
-    for (std::size_t k = 0; k < sample.nodes.size(); k += step) division.closing.push_back(sample.nodes[k]);
-    keep_one_of_each(division.closing);
+    for (std::size_t k = 0; k < sample.nodes.size(); k += step)
+      closing.emplace(sample.nodes[k].number, sample.nodes[k].point);
+    for (const auto& [number, point] : closing) division.closing.push_back({point, number});
     sort_along_curve(division.closing);
   });
   if (options.given != nullptr) {

@@ -90,8 +90,6 @@ class PatchHull {
   /// The numbers of different nodes in the same direction, as far as the hull has found them.
   const CoincidentPairs& coincident() const { return coincident_; }
 
-  /// Hull nodes without those taken in.
-  std::size_t built() const { return built_; }
   bool is_own(HullNode v) const { return v < built_ && order_[v] < own_; }
   Point place(HullNode v) const { return places_(arrays_.nodes[v]); }
   GlobalNumber number(HullNode v) const { return GlobalNumber{number_[v]}; }

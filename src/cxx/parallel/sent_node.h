@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -33,15 +32,6 @@ inline void sort_along_curve(std::vector<SentNode>& nodes) {
   std::vector<SentNode> sorted;
   for (const std::uint32_t k : order) sorted.push_back(nodes[k]);
   nodes.swap(sorted);
-}
-
-/// Sorts by number and keeps each number once.
-inline void keep_one_of_each(std::vector<SentNode>& nodes) {
-  std::sort(nodes.begin(), nodes.end(),
-            [](const SentNode& a, const SentNode& b) { return a.number < b.number; });
-  nodes.erase(std::unique(nodes.begin(), nodes.end(),
-                          [](const SentNode& a, const SentNode& b) { return a.number == b.number; }),
-              nodes.end());
 }
 
 }  // namespace pstripack
