@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <set>
 #include <stdexcept>
 #include <vector>
 
@@ -34,40 +33,7 @@ bool is_stdout(const std::string& name) {
                          named.st_dev == open.st_dev && named.st_ino == open.st_ino);
 }
 
-/// Temporary files of this target have this, the number of the process, a dot and six letters as their name.
-std::string beginning_of_temporary(const std::string& target) {
-  const std::string name = target == "-" ? "stdout" : fs::path(target).filename().string();
-  return "." + name.substr(0, 200) + ".unfinished.";  // a name has at most 255 bytes
-}
-
-/// Names temporary files of this user's runs that have ended. Looks once for each target, since a folder may
-/// be large.
-void report_leftovers(const fs::path& folder, const std::string& beginning) {
-  static std::set<fs::path> seen;
-  if (!on_leftover() || !seen.insert(folder / beginning).second) return;
-  std::error_code error;
-  for (fs::directory_iterator at(folder.empty() ? "." : folder, error), end; !error && at != end;
-       at.increment(error)) {
-    const std::string name = at->path().filename().string();
-    if (name.rfind(beginning, 0) != 0) continue;
-    const long process = std::strtol(name.c_str() + beginning.size(), nullptr, 10);
-    struct stat status;
-    if (process <= 0 || kill(static_cast<pid_t>(process), 0) == 0 || errno != ESRCH ||
-        lstat(at->path().c_str(), &status) != 0 || status.st_uid != geteuid())
-      continue;
-    on_leftover()(
-        fmt::format("{} is unfinished output of a killed run: process {} does not run on this "
-                    "machine: remove the file, unless the process runs on another machine",
-                    at->path().string(), process));
-  }
-}
-
 }  // namespace
-
-std::function<void(const std::string&)>& on_leftover() {
-  static std::function<void(const std::string&)> say;
-  return say;
-}
 
 void remove_unfinished_output() {
   for (const char* const name : names_to_remove)
@@ -97,9 +63,9 @@ OutputFile::OutputFile(const std::string& name)
     if (!copies_ && fs::exists(status) && (status.permissions() & kWriting) == fs::perms::none) fail(EACCES);
   }
   const fs::path folder = copies_ ? fs::temp_directory_path() : fs::path(target_).parent_path();
-  const std::string beginning = beginning_of_temporary(target_);
-  report_leftovers(folder, beginning);
-  temporary_ = (folder / fmt::format("{}{}.XXXXXX", beginning, getpid())).string();
+  // A name has at most 255 bytes.
+  const std::string last = target_ == "-" ? "stdout" : fs::path(target_).filename().string();
+  temporary_ = (folder / fmt::format(".{}.unfinished.{}.XXXXXX", last.substr(0, 200), getpid())).string();
   const int descriptor = mkstemp(temporary_.data());
   if (descriptor < 0) fail(errno);
   out_.reset(fdopen(descriptor, "wb"));

@@ -5,7 +5,6 @@
 #include <sys/types.h>
 
 #include <cstdio>
-#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -13,8 +12,8 @@
 namespace files {
 
 /// Writes a temporary file beside the final one; commit() renames it. Without commit(), or after SIGHUP,
-/// SIGINT, SIGPIPE, SIGQUIT, SIGTERM or SIGXCPU, nothing remains. After SIGKILL the temporary file remains:
-/// the next run that writes the same file calls on_leftover(). An existing file is replaced unless its
+/// SIGINT, SIGPIPE, SIGQUIT, SIGTERM or SIGXCPU, nothing remains. After SIGKILL the temporary file remains.
+/// An existing file is replaced unless its
 /// permissions forbid to write it, also root, and the new one gets them. `-` is stdout: commit() copies to
 /// it, by whatever name, and to devices, pipes and open files without a name. At most two objects may exist
 /// at a time. Throws std::runtime_error "NAME: cannot be written: why".
@@ -48,9 +47,6 @@ class OutputFile {
   bool copies_;                ///< the target is a device, pipe or stdout: commit() copies
   char* to_remove_ = nullptr;  ///< the signal handlers' copy of temporary_
 };
-
-/// Is called with the sentence that names a temporary file of a killed run; empty: nobody is told.
-std::function<void(const std::string&)>& on_leftover();
 
 /// Removes the temporary files that OutputFiles of this process have. Signal handlers may call it.
 void remove_unfinished_output();

@@ -97,7 +97,6 @@ int run(int argc, char** argv) {
   for (const auto add :
        {add_triangulate, add_voronoi, add_info, add_points, add_convert, add_scvt, add_interpolate, add_plot})
     add(app, chosen);
-  files::on_leftover() = say;
   try {
     app.parse(argc, argv);
     const pstripack::ChosenThreads threads(global().threads);

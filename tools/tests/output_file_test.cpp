@@ -88,32 +88,10 @@ TEST(output_file, does_not_replace_a_file_that_nobody_may_write) {
   EXPECT_EQ(entries(folder.path()), 2u);
 }
 
-TEST(output_file, of_a_killed_run_is_named_by_the_next_one) {
+TEST(output_file, may_have_a_name_of_250_characters) {
   const Folder folder;
-  std::vector<std::string> said;
-  on_leftover() = [&](const std::string& text) { said.push_back(text); };
-  const auto file_in_a_child = [&](const std::string& name) {
-    const pid_t child = fork();
-    if (child == 0) {
-      OutputFile file(folder.path() + "/" + name);
-      raise(SIGKILL);
-    }
-    waitpid(child, nullptr, 0);
-    return std::to_string(child);
-  };
-  const std::string process = file_in_a_child("a");
-  file_in_a_child("ab");
-  file_in_a_child(std::string(250, 'c'));  // a temporary file of a name of 250 characters
-  std::ofstream(folder.path() + "/.a.unfinished.1.AAAAAA") << "of process 1, which runs";
-  for (int again = 0; again < 2; ++again) OutputFile(folder.path() + "/a");
-  EXPECT_EQ(entries(folder.path()), 4u);
-  ASSERT_EQ(said.size(), 1u);
-  EXPECT_EQ(said[0].find(folder.path() + "/.a.unfinished." + process + "."), 0u) << said[0];
-  EXPECT_NE(said[0].find(" is unfinished output of a killed run: process " + process), said[0].npos)
-      << said[0];
-  OutputFile(folder.path() + "/" + std::string(250, 'c'));
-  EXPECT_EQ(said.size(), 2u);
-  on_leftover() = nullptr;
+  OutputFile(folder.path() + "/" + std::string(250, 'c')).commit();
+  EXPECT_EQ(entries(folder.path()), 1u);
 }
 
 TEST(output_file, replaces_what_a_link_points_to) {
