@@ -22,6 +22,11 @@ using pstripack::Buffer;
 template <class T>
 using Array = py::array_t<T, py::array::c_style>;
 
+template <class T>
+std::vector<T> items(const Array<T>& array) {
+  return {array.data(), array.data() + array.size()};
+}
+
 /// Runs body() on this number of threads without Python's lock.
 template <class Body>
 auto compute(int threads, const Body& body) {

@@ -12,23 +12,14 @@
 namespace bindings {
 namespace {
 
+/// Cells have no such sides: files::voronoi_cells() divides them.
 void expect_no_half_turn(const files::Faces& faces) {
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    for (std::size_t k = faces.begin[f]; k < faces.begin[f + 1]; ++k) {
-      const auto at = [&](std::size_t i) {
-        return faces.points[static_cast<std::size_t>(faces.corner[i]) - 1];
-      };
-      if (dot(at(k), at(k + 1 < faces.begin[f + 1] ? k + 1 : faces.begin[f])) >= -1 + 1e-12) continue;
-      const std::string number = std::to_string(f) + " (counted from 0)";
-      if (faces.centres.empty())
-        throw NoTriangulation(
-            NoTriangulation::Cause::too_few,
-            "triangle " + number + " has two corners opposite each other: it cannot be drawn");
-      throw NoTriangulation(
-          NoTriangulation::Cause::too_few,
-          "the cell of node " + number + " reaches halfway around the sphere: add nodes elsewhere",
-          {static_cast<std::int64_t>(f)});
-    }
+  faces.for_each_corner([&](std::size_t f, std::size_t k) {
+    if (dot(faces.point(k), faces.point(faces.after(f, k))) < -1 + 1e-12)
+      throw NoTriangulation(NoTriangulation::Cause::too_few,
+                            "triangle " + std::to_string(f) +
+                                " (counted from 0) has two corners opposite each other: it cannot be drawn");
+  });
 }
 
 /// Runs visit(face, add) for each face, on threads; add(outline, x_y) adds an outline, a vector of items, of
@@ -158,8 +149,7 @@ Outlines polygons_in(const Window& window, const Triangulation& mesh, bool cells
   const Drawing drawing(window);
   return collect(faces.size(), [&](std::size_t f, const auto& add) {
     std::vector<Point> corners;
-    for (std::size_t k = faces.begin[f]; k < faces.begin[f + 1]; ++k)
-      corners.push_back(faces.points[static_cast<std::size_t>(faces.corner[k]) - 1]);
+    for (std::size_t k = faces.begin[f]; k < faces.begin[f + 1]; ++k) corners.push_back(faces.point(k));
     for (const pictures::Outline& outline : drawing.view().polygon(corners)) add(outline, drawing);
   });
 }
@@ -176,12 +166,9 @@ Outlines lines_in(const Window& window, const Triangulation& mesh, bool cells) {
   }
   return collect(faces.size(), [&](std::size_t f, const auto& add) {
     for (std::size_t k = faces.begin[f]; k < faces.begin[f + 1]; ++k) {
-      const std::int32_t from = faces.corner[k],
-                         to = faces.corner[k + 1 < faces.begin[f + 1] ? k + 1 : faces.begin[f]];
-      const auto i = static_cast<std::size_t>(from);
-      if (from > to && next_on_boundary[i] != to) continue;
-      for (const pictures::Outline& line :
-           drawing.view().arc(faces.points[i - 1], faces.points[static_cast<std::size_t>(to) - 1]))
+      const std::int32_t from = faces.corner[k], to = faces.corner[faces.after(f, k)];
+      if (from > to && next_on_boundary[static_cast<std::size_t>(from)] != to) continue;
+      for (const pictures::Outline& line : drawing.view().arc(faces.numbered(from), faces.numbered(to)))
         add(line, drawing);
     }
   });

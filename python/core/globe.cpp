@@ -3,15 +3,6 @@
 #include "pictures/globe.h"
 
 namespace bindings {
-namespace {
-
-template <class T>
-std::vector<T> items(const Array<T>& array) {
-  return {array.data(), array.data() + array.size()};
-}
-
-}  // namespace
-
 py::str globe(const std::string& title, const Array<double>& lon, const Array<double>& lat,
               const Array<std::int32_t>& simplices, const Array<double>& values, const std::string& name,
               const std::string& unit, bool shows_values, const std::string& coasts) {

@@ -26,6 +26,7 @@ using bindings::Array;
 using bindings::array_of;
 using bindings::Buffer;
 using bindings::compute;
+using bindings::items;
 using bindings::NoTriangulation;
 using bindings::Rows;
 using bindings::Runs;
@@ -231,24 +232,10 @@ py::array interpolate(const Mesh& mesh, const std::string& method, const Array<d
 py::array vectors(const Array<double>& lon, const Array<double>& lat, bool degrees) {
   if (lon.ndim() != 1 || lat.ndim() != 1 || lon.size() != lat.size())
     throw py::value_error("longitudes and latitudes differ in number");
-  const auto n = static_cast<std::size_t>(lon.size());
-  const auto sine = degrees ? point_sets::sin_degrees : point_sets::sin_radians;
-  const auto cosine = degrees ? point_sets::cos_degrees : point_sets::cos_radians;
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  return array_of(compute(0, [&] {
-    Buffer<Point> points(n);
-    pstripack::parallel_pieces(n, pstripack::threads_for(4 * n),
-                               [&](std::size_t begin, std::size_t end, int) {
-                                 for (std::size_t i = begin; i < end; ++i) {
-                                   const double x = lon.data()[i], y = lat.data()[i];
-                                   if (std::isfinite(x) && std::isfinite(y))
-                                     points[i] = {cosine(y) * cosine(x), cosine(y) * sine(x), sine(y)};
-                                   else
-                                     points[i] = {kNan, kNan, kNan};
-                                 }
-                               });
-    return points;
-  }));
+  files::LonLat angles;
+  angles.lon = items(lon), angles.lat = items(lat);
+  angles.degrees = degrees;
+  return array_of(compute(0, [&] { return files::points_of(angles); }));
 }
 
 /// Corners x, y; the first corner of each outline, and the number of corners; the face of each outline.

@@ -220,14 +220,9 @@ Runs Triangulation::neighbours() const {
 }
 
 std::vector<std::int32_t> Triangulation::boundary() const {
-  std::vector<std::int32_t> nodes;
-  const Reader reader(lists());
-  const std::int32_t first = interpolation_->first_boundary_node();
-  for (std::int32_t node = first; node != 0;) {
-    nodes.push_back(node - 1);
-    node = reader.first_neighbour(node);
-    if (node == first) break;
-  }
+  std::vector<std::int32_t> nodes(n_);
+  nodes.resize(static_cast<std::size_t>(pstripack::boundary_nodes(lists(), nodes.data()).boundary_nodes));
+  for (std::int32_t& node : nodes) --node;
   return nodes;
 }
 

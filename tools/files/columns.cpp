@@ -7,6 +7,7 @@
 
 #include "base/parallel_for.h"
 #include "files/measures.h"
+#include "point_sets.h"
 
 namespace files {
 
@@ -49,6 +50,17 @@ LonLat::LonLat(const std::vector<pstripack::Point>& points, bool in_degrees)
     lon[i] = std::atan2(p.y, p.x) * scale;
     lat[i] = std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y)) * scale;
   });
+}
+
+std::vector<pstripack::Point> points_of(const LonLat& angles) {
+  const auto sine = angles.degrees ? point_sets::sin_degrees : point_sets::sin_radians;
+  const auto cosine = angles.degrees ? point_sets::cos_degrees : point_sets::cos_radians;
+  std::vector<pstripack::Point> points(angles.lon.size(), {kMissing, kMissing, kMissing});
+  pstripack::parallel_for(points.size(), points.size(), [&](std::size_t i) {
+    const double lon = angles.lon[i], lat = angles.lat[i], r = cosine(lat);
+    if (std::isfinite(lon) && std::isfinite(lat)) points[i] = {r * cosine(lon), r * sine(lon), sine(lat)};
+  });
+  return points;
 }
 
 LonLat angles_of(const std::vector<pstripack::Point>& points, const LonLat& given, bool degrees) {

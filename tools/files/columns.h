@@ -53,6 +53,9 @@ struct LonLat {
   bool empty() const { return lon.empty(); }
 };
 
+/// The unit vectors; missing where an angle is not finite.
+std::vector<pstripack::Point> points_of(const LonLat& angles);
+
 /// The given angles, converted to the requested unit; the angles of the vectors if none were given.
 LonLat angles_of(const std::vector<pstripack::Point>& points, const LonLat& given, bool degrees);
 

@@ -264,15 +264,13 @@ std::vector<MapRing> cut_at_dateline(MapRing ring) {
 
 namespace {
 
-/// Throws NoMesh, naming the cell or triangle, if a side is a half turn: its ends do not determine its great
-/// circle.
-void expect_no_half_turn(const MapRing& ring, const Faces& faces, std::size_t face) {
+/// Throws NoMesh, naming the triangle, if a side is a half turn: its ends do not determine its great circle.
+/// Cells have none: voronoi_cells() divides them.
+void expect_no_half_turn(const MapRing& ring, std::size_t face) {
   for (std::size_t i = 0; i < ring.size(); ++i)
     if (dot(ring[i].p, ring[(i + 1) % ring.size()].p) < -1 + 1e-12)
-      throw NoMesh(faces.centres.empty() ? "two corners of triangle " + std::to_string(face + 1) +
-                                               " are opposite each other: remove one"
-                                         : "the cell of node " + std::to_string(faces.node_of(face) + 1) +
-                                               " reaches halfway around the sphere: add nodes elsewhere");
+      throw NoMesh("two corners of triangle " + std::to_string(face + 1) +
+                   " are opposite each other: remove one");
 }
 
 /// Twice the area of the ring on the map; positive if counterclockwise.
@@ -345,7 +343,7 @@ MapRing MapLines::corners_between(std::int32_t from, std::int32_t to) const {
 
 std::vector<MapRing> MapLines::polygons(std::size_t face) const {
   MapRing corners = ring_of(faces_, face, angles_, corner_);
-  expect_no_half_turn(corners, faces_, face);
+  expect_no_half_turn(corners, face);
   move_to_poles(corners);
   MapRing ring;
   for (std::size_t k = 0; k < corners.size(); ++k) {

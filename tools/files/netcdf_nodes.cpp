@@ -430,8 +430,8 @@ const Variable* ugrid_mesh_of(const File& file, const std::string& value) {
   return found;
 }
 
-/// Reads the nodes of a UGRID mesh; sets `kind` and triangles of `nodes`.
-Places read_ugrid(const File& file, Nodes& nodes, const Variable& mesh) {
+/// Reads the nodes of a UGRID mesh.
+Places read_ugrid(const File& file, const Variable& mesh) {
   const Names words = words_of(file.text(mesh, "node_coordinates"), ' '),
               vectors = words_of(file.text(mesh, kNodeVectors), ' ');
   if (words.size() < 2) file.fail("variable {}: expected node_coordinates 'lon lat'", excerpt(mesh.path));
@@ -448,9 +448,7 @@ Places read_ugrid(const File& file, Nodes& nodes, const Variable& mesh) {
     places = from_angles(file, angles);
     places.names = places.given.degrees ? "lon lat in degrees" : "lon lat in radians";
   }
-  nodes.points = places.points;
-  nodes.kind += ", UGRID, " + places.names;
-  if (file.options().with_triangles) read_faces(file, nodes, mesh);
+  places.names = "UGRID, " + places.names;
   return places;
 }
 
@@ -565,24 +563,23 @@ Nodes read_netcdf(const std::string& name, const ReadOptions& options, const std
   const std::string value = options.with_values ? options.variable : "";
   const Variable* const mesh = ugrid_mesh_of(file, value);
   const Variable* const x = file.find("xCell");
-  if (wanted.empty() && mesh != nullptr) {
-    places = read_ugrid(file, nodes, *mesh);
+  const bool is_ugrid = wanted.empty() && mesh != nullptr;
+  if (is_ugrid) {
+    places = read_ugrid(file, *mesh);
+  } else if (!wanted.empty()) {
+    places = read_chosen(file, wanted);
+  } else if (x != nullptr && options.coordinates != Coordinates::lonlat) {
+    if (file.text(file.global(), "on_a_sphere").rfind("NO", 0) == 0)
+      file.fail(
+          "on_a_sphere is NO: a planar mesh, which is not read; if its nodes lie on a sphere: ncatted -a "
+          "on_a_sphere,global,o,c,YES");
+    places = from_coordinates(file, *x, file.variable("yCell"), file.variable("zCell"));
+    add_angles(file, places, {file.find("lonCell"), file.find("latCell")});
+    add_angles(file, places, {file.find("lon"), file.find("lat")});
   } else {
-    if (!wanted.empty()) {
-      places = read_chosen(file, wanted);
-    } else if (x != nullptr && options.coordinates != Coordinates::lonlat) {
-      if (file.text(file.global(), "on_a_sphere").rfind("NO", 0) == 0)
-        file.fail(
-            "on_a_sphere is NO: a planar mesh, which is not read; if its nodes lie on a sphere: ncatted -a "
-            "on_a_sphere,global,o,c,YES");
-      places = from_coordinates(file, *x, file.variable("yCell"), file.variable("zCell"));
-      add_angles(file, places, {file.find("lonCell"), file.find("latCell")});
-      add_angles(file, places, {file.find("lon"), file.find("lat")});
-    } else {
-      places = from_angles(file, lon_lat_of(file, value));
-    }
-    nodes.kind += ", " + places.names;
+    places = from_angles(file, lon_lat_of(file, value));
   }
+  nodes.kind += ", " + places.names;
   nodes.points = std::move(places.points);
   nodes.given = std::move(places.given);
   nodes.grid = std::move(places.grid);
@@ -601,6 +598,7 @@ Nodes read_netcdf(const std::string& name, const ReadOptions& options, const std
   read_notes(file, nodes.notes);
   if (const Variable* const density = file.find("meshDensity")) nodes.density = read_of_nodes(file, *density);
   if (nodes.density.size() != nodes.points.size()) nodes.density.clear();
+  if (options.with_triangles && is_ugrid) read_faces(file, nodes, *mesh);
   if (options.with_triangles && x != nullptr && file.find("cellsOnVertex") != nullptr)
     read_mpas_triangles(file, nodes);
   const double radius =

@@ -399,22 +399,6 @@ std::string hint_beyond_pole(const LonLat& a, const std::string& to_exchange) {
   return "; are they exchanged?" + (to_exchange.empty() ? "" : " Then say --columns " + to_exchange);
 }
 
-std::vector<Point> points_of(const LonLat& a) {
-  const auto sine = a.degrees ? point_sets::sin_degrees : point_sets::sin_radians;
-  const auto cosine = a.degrees ? point_sets::cos_degrees : point_sets::cos_radians;
-  std::vector<Point> points(a.lon.size());
-  pstripack::parallel_for(points.size(), points.size(), [&](std::size_t i) {
-    const double lon = a.lon[i], lat = a.lat[i], either = lon + lat;
-    if (std::isnan(either)) {
-      points[i] = {either, either, either};
-    } else {
-      const double r = cosine(lat);
-      points[i] = {r * cosine(lon), r * sine(lon), sine(lat)};
-    }
-  });
-  return points;
-}
-
 std::size_t first_beyond_pole(const LonLat& a) {
   const double pole = (a.degrees ? 90 : kRightAngle) * kSlack;
   const auto is_beyond = [&](double lat) { return std::fabs(lat) > pole; };

@@ -112,7 +112,6 @@ bool is_netcdf(const std::string& file);
 
 // Below: one reader per container.
 
-std::vector<Point> points_of(const LonLat& angles);
 /// The index of the first latitude beyond a pole by more than the rounding of single precision; their number
 /// if there is none.
 std::size_t first_beyond_pole(const LonLat& angles);
