@@ -18,7 +18,6 @@
 #include "lists/rings.h"
 #include "mesh/delaunay.h"
 #include "methods/gradients.h"
-#include "stripack/list_queries.h"
 #include "stripack/triangle_list.h"
 #include "stripack/voronoi.h"
 
@@ -202,20 +201,12 @@ Buffer<std::int32_t> Triangulation::opposite_triangles() const {
 }
 
 Runs Triangulation::neighbours() const {
-  const Reader reader(lists());
-  Runs runs{Buffer<std::int32_t>(n_ + 1), {}};
-  const int threads = threads_for(n_);
-  parallel_pieces(n_, threads, [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t k = begin; k < end; ++k) runs.begin[k + 1] = pstripack::nbcnt(lend_[k], lptr_.data());
-  });
+  // Canonical lists are these runs, apart from signs.
+  Runs runs{Buffer<std::int32_t>(n_ + 1), Buffer<std::int32_t>(static_cast<std::size_t>(lnew_) - 1)};
   runs.begin[0] = 0;
-  std::partial_sum(runs.begin.begin(), runs.begin.end(), runs.begin.begin());
-  runs.values = Buffer<std::int32_t>(static_cast<std::size_t>(runs.begin[n_]));
-  parallel_pieces(n_, threads, [&](std::size_t begin, std::size_t end, int) {
-    std::int32_t* to = runs.values.data() + runs.begin[begin];
-    for (std::size_t k = begin; k < end; ++k)
-      files::for_each_neighbour(reader, k, [&](std::size_t j) { *to++ = static_cast<std::int32_t>(j); });
-  });
+  std::copy(lend_.begin(), lend_.end(), runs.begin.begin() + 1);
+  std::transform(list_.begin(), list_.begin() + lnew_ - 1, runs.values.begin(),
+                 [](std::int32_t neighbour) { return std::abs(neighbour) - 1; });
   return runs;
 }
 
@@ -291,33 +282,20 @@ Buffer<double> Triangulation::cell_areas() const {
 
 ClosestPair Triangulation::closest_pair() const {
   const Reader reader(lists());
-  const auto direction = [this](std::int32_t node) {
-    return pstripack::direction_of(given(static_cast<std::size_t>(node)));
-  };
-  const int threads = threads_for(n_);
-  std::vector<ClosestPair> closest(static_cast<std::size_t>(threads));
-  parallel_pieces(n_, threads, [&](std::size_t begin, std::size_t end, int piece) {
-    ClosestPair best{std::numeric_limits<double>::infinity(), 0, 0};
-    double limit =
-        best.distance;  // of squares; the rounding of unit vectors changes distances by 6e-16 at most
-    for (std::size_t k = begin; k < end; ++k) {
-      const auto node = static_cast<std::int32_t>(k);
-      std::int32_t slot = lend_[k];
-      do {
-        slot = reader.next(slot);
-        const std::int32_t other = reader.neighbour(slot) - 1;
-        const Point d = minus(at(other), at(node));
-        if (other < node || dot(d, d) > limit) continue;
-        const double distance = 2 * std::sin(arc_length(direction(node), direction(other)) / 2);
-        if (distance < best.distance) best = {distance, node, other};
-        limit = (best.distance + 1e-15) * (best.distance + 1e-15);
-      } while (slot != lend_[k]);
-    }
-    closest[static_cast<std::size_t>(piece)] = best;
-  });
-  return *std::min_element(closest.begin(), closest.end(), [](const ClosestPair& a, const ClosestPair& b) {
-    return a.distance < b.distance;
-  });
+  const auto direction = [this](std::size_t node) { return pstripack::direction_of(given(node)); };
+  ClosestPair best{std::numeric_limits<double>::infinity(), 0, 0};
+  double limit =
+      best.distance;  // of squares; the rounding of unit vectors changes distances by 6e-16 at most
+  for (std::size_t k = 0; k < n_; ++k)
+    files::for_each_neighbour(reader, k, [&](std::size_t other) {
+      const Point d = minus(at(static_cast<std::int32_t>(other)), at(static_cast<std::int32_t>(k)));
+      if (other < k || dot(d, d) > limit) return;
+      const double distance = 2 * std::sin(arc_length(direction(k), direction(other)) / 2);
+      if (distance < best.distance)
+        best = {distance, static_cast<std::int64_t>(k), static_cast<std::int64_t>(other)};
+      limit = (best.distance + 1e-15) * (best.distance + 1e-15);
+    });
+  return best;
 }
 
 }  // namespace bindings
