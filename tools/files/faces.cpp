@@ -135,7 +135,7 @@ Faces voronoi_cells(const pstripack::ListsView<std::int32_t>& lists, const pstri
   Faces cells;
   cells.points.resize(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) cells.points[i] = {x[i], y[i], z[i]};
-  cells.corner.reserve(corner.size());
+  cells.corner.reserve(corner.size()), cells.begin.reserve(n + 1);
   std::vector<std::int32_t> beyond;
   const bool divides = cosine >= -1;
   if (divides) beyond.reserve(corner.size());
