@@ -41,7 +41,7 @@ void set_view(const std::string& text, MeshOptions& mesh) {
   mesh.centre = {numbers[0], numbers[1]};
 }
 
-/// Parses none, area, degree, owner:P[:bisection|stripes], or the name of a column.
+/// Parses none, area, degree, owner:P[:stripes], or the name of a column.
 void set_colour(const std::string& text, MeshOptions& mesh) {
   using Colour = MeshOptions::Colour;
   const std::vector<std::string> parts = files::parts_of(text, ':');
@@ -56,19 +56,16 @@ void set_colour(const std::string& text, MeshOptions& mesh) {
     mesh.value = text;
     return;
   }
-  const std::map<std::string, pstripack::PartitionKind> kinds{
-      {"bisection", pstripack::PartitionKind::bisection}, {"stripes", pstripack::PartitionKind::stripes}};
   double ranks = 0;
   if (parts.size() > 1) point_sets::parse(parts[1], ranks);
-  const auto kind = kinds.find(parts.size() == 3 ? parts[2] : "bisection");
+  const bool are_stripes = parts.size() == 3 && parts[2] == "stripes";
   constexpr double kMost = 4096;
-  if (parts.size() > 3 || !(ranks >= 1 && ranks <= kMost) || ranks != std::floor(ranks) ||
-      kind == kinds.end())
+  if (parts.size() != (are_stripes ? 3 : 2) || !(ranks >= 1 && ranks <= kMost) || ranks != std::floor(ranks))
     throw CLI::ValidationError("--colour",
                                text + ": expected owner:P or owner:P:stripes for 1 to 4096 ranks");
   mesh.colour = Colour::owner;
   mesh.ranks = static_cast<int>(ranks);
-  mesh.partition = kind->second;
+  if (are_stripes) mesh.partition = pstripack::PartitionKind::stripes;
 }
 
 void set_box(const Options& options, MeshOptions& mesh) {
