@@ -82,27 +82,17 @@ Points pairs_nodes(std::size_t n, double distance, Random& random) {
   return p;
 }
 
-Points hemisphere_nodes(std::size_t n, double, Random& random) {
-  Points p;
-  while (p.size() < n) {
-    const Point q = random.direction();
-    if (q.z > 0) p.push_back(q);
-  }
+Point hemisphere_node(double, Random& random, std::size_t) {
+  Point p = random.direction();
+  while (!(p.z > 0)) p = random.direction();
   return p;
 }
 
-Points hemisphere_rim_nodes(std::size_t n, double, Random& random) {
-  Points p;
-  while (p.size() < n) {
-    const Point q = random.direction();
-    if (p.size() % 2 == 0) {
-      const double longitude = random.uniform(0, 360);
-      p.push_back({cos_degrees(longitude), sin_degrees(longitude), 0});
-    } else if (q.z > 0) {
-      p.push_back(q);
-    }
-  }
-  return p;
+Point hemisphere_rim_node(double, Random& random, std::size_t i) {
+  if (i % 2 == 1) return hemisphere_node(0, random, i);
+  random.direction();
+  const double longitude = random.uniform(0, 360);
+  return {cos_degrees(longitude), sin_degrees(longitude), 0};
 }
 
 }  // namespace
@@ -118,9 +108,9 @@ std::vector<Family> uneven_families() {
       {"strip", "1e-9", "n", "along a tilted great circle, in a strip of that width", strip_nodes},
       {"tee", "1e-8", "n", "half along an arc, half towards its middle, in strips of that width", tee_nodes},
       {"pairs", "1e-10", "2 m", "uniform, each node with a neighbour at that distance", pairs_nodes},
-      {"hemisphere", "", "n", "uniform in the open hemisphere z > 0", hemisphere_nodes},
-      {"hemisphere-rim", "", "n", "half of them exactly on the equator, half north of it",
-       hemisphere_rim_nodes},
+      drawn("hemisphere", "", "uniform in the open hemisphere z > 0", hemisphere_node),
+      drawn("hemisphere-rim", "", "half of them exactly on the equator, half north of it",
+            hemisphere_rim_node),
   };
 }
 
