@@ -12,5 +12,5 @@ namespace pictures {
 const char* const kGlobeHtml = R\"html(@globe_html@)html\";
 }
 ")
-set(globe_sources ${PROJECT_BINARY_DIR}/globe_html.cpp ${pictures}/coasts.cpp ${pictures}/colours.cpp
-                  ${pictures}/globe.cpp ${pictures}/scale.cpp ${pictures}/shading.cpp)
+set(globe_sources ${PROJECT_BINARY_DIR}/globe_html.cpp ${pictures}/coasts.cpp ${pictures}/globe.cpp
+                  ${pictures}/scale.cpp ${pictures}/shading.cpp)

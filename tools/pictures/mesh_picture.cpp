@@ -13,7 +13,6 @@
 #include "files/measures.h"
 #include "parallel/sample.h"
 #include "pictures/coasts.h"
-#include "pictures/colours.h"
 #include "pictures/scale.h"
 #include "pictures/sheet.h"
 #include "point_sets.h"

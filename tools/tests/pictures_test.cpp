@@ -13,7 +13,6 @@
 #include "error_of.h"
 #include "files/measures.h"
 #include "pictures/coasts.h"
-#include "pictures/colours.h"
 #include "pictures/mesh_picture.h"
 #include "pictures/scale.h"
 #include "pictures/svg.h"
