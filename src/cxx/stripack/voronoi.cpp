@@ -208,6 +208,10 @@ class Voronoi {
       : lists_(lists), nodes_(nodes), directions_(directions), out_(out), threads_(threads_for(lists.n)) {}
 
   VoronoiStatus write() {
+    if (lists_.size() < 3) {
+      *out_.nb = 0;
+      return VoronoiStatus::too_few_nodes;
+    }
     if (!read()) return VoronoiStatus::broken_lists;
     *out_.nb = nb_;
     FarSide<Real, Int> far_side(lists_, nodes_, directions_, out_.ncol, out_.ltri);
@@ -427,19 +431,11 @@ class Voronoi {
 template <class Real, class Int>
 VoronoiStatus voronoi(const ListsView<Int>& lists, const Nodes<Real>& nodes,
                       const VoronoiArrays<Real, Int>& out) {
-  if (static_cast<Int>(lists.n) < 3) {
-    *out.nb = 0;
-    return VoronoiStatus::too_few_nodes;
-  }
   return Voronoi<Real, Int>(lists, nodes, nullptr, out).write();
 }
 
 VoronoiStatus voronoi_of_directions(const ListsView<std::int32_t>& lists, const Directions& nodes,
                                     const VoronoiArrays<double, std::int32_t>& out) {
-  if (lists.n < 3) {
-    *out.nb = 0;
-    return VoronoiStatus::too_few_nodes;
-  }
   return Voronoi<double, std::int32_t>(lists, {}, &nodes, out).write();
 }
 
