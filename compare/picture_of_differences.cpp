@@ -178,7 +178,7 @@ std::string caption(double y, const std::string& text) {
 
 Plot::Plot(const std::string& file) : file_(file) {
   if (std::filesystem::path(file).extension() != ".svg")
-    throw std::invalid_argument("--plot " + file + ": expected FILE.svg");
+    throw std::invalid_argument("--plot " + file + ": expected FILE.svg (rsvg-convert makes PNG)");
 }
 
 void Plot::add(const Result& result, const std::vector<Point>& points) {

@@ -105,8 +105,9 @@ void plot(Options& options) {
       options.to.empty() ? std::filesystem::path(options.file).extension().string() : "." + options.to;
   const bool globe = suffix == ".html";
   if (!globe && suffix != ".svg")
-    throw CLI::ValidationError("--output",
-                               options.file + ": expected FILE.svg or FILE.html, or --to svg or html");
+    throw CLI::ValidationError(
+        "--output",
+        options.file + ": expected FILE.svg or FILE.html, or --to svg or html; rsvg-convert makes PNG");
   MeshOptions& wanted = options.mesh;
   if (!options.view.empty()) set_view(options.view, wanted);
   set_colour(options.colour, wanted);
