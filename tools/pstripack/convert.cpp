@@ -14,7 +14,7 @@
 namespace program {
 namespace {
 
-struct Options {
+struct ConvertOptions {
   Input input;
   Output output;
   std::string region, sides;
@@ -34,7 +34,7 @@ files::Mesh mesh_in(const files::Nodes& nodes) {
   return mesh;
 }
 
-void write_whole(files::OutputFile& file, const Options& options, const files::Nodes& nodes) {
+void write_whole(files::OutputFile& file, const ConvertOptions& options, const files::Nodes& nodes) {
   files::Mesh mesh = mesh_in(nodes);
   const Output& output = options.output;
   if (!options.region.empty()) {
@@ -91,7 +91,7 @@ void tell_lost_variables(const files::Nodes& nodes, const std::string& mesh) {
                     mesh));
 }
 
-void convert(Options& options) {
+void convert(ConvertOptions& options) {
   options.output.choose();
   options.input.read.with_columns = options.input.read.with_boundary = true;
   options.input.read.with_triangles = !options.input.read.keep_missing;
@@ -145,7 +145,7 @@ void convert(Options& options) {
 void add_convert(CLI::App& app, Command& chosen) {
   CLI::App* const sub =
       app.add_subcommand("convert", "the same nodes or triangles (of UGRID, MPAS, OFF) in another format");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ConvertOptions>();
   add_input(*sub, options->input);
   add_duplicates(*sub, options->input);
   add_output(*sub, options->output, true);

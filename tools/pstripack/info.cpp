@@ -18,7 +18,7 @@ namespace {
 
 using files::Mesh;
 
-struct Options {
+struct InfoOptions {
   Input input;
   bool json = false;
 };
@@ -74,7 +74,7 @@ Facts facts_of(const Mesh& mesh) {
   return facts;
 }
 
-void info(const Options& options) {
+void info(const InfoOptions& options) {
   Progress progress;
   files::Nodes nodes = progress.step("reading", [&] { return read_nodes(options.input); });
   const std::size_t given = nodes.points.size();
@@ -147,7 +147,7 @@ void info(const Options& options) {
 void add_info(CLI::App& app, Command& chosen) {
   CLI::App* const sub = app.add_subcommand(
       "info", "counts, boundary, duplicates, tightest pair and quality of the triangulation of the nodes");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<InfoOptions>();
   add_input(*sub, options->input);
   sub->add_flag("--json", options->json, "print JSON");
   sub->callback([=, &chosen] { chosen = [=] { info(*options); }; });

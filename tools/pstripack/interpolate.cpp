@@ -24,7 +24,7 @@ using methods::Interpolation;
 enum class Registration { cell, node };
 enum class To { text, csv, netcdf };
 
-struct Options {
+struct InterpolateOptions {
   Input input;
   std::string points, grid, box;
   double step = 0;
@@ -56,7 +56,7 @@ double parts(double extent, double step) {
 
 constexpr double kMostPlaces = 1 << 28;  // of insertion_order
 
-files::Grid grid_of(const Options& options) {
+files::Grid grid_of(const InterpolateOptions& options) {
   const files::Region r = options.box.empty() ? files::Region{} : region_of(options.box, "--box");
   const double width = r.east - r.west, height = r.north - r.south;
   const bool at_nodes = options.registration == Registration::node, all_around = width == 360;
@@ -88,14 +88,14 @@ std::vector<double> edges_between(const std::vector<double>& points, double low,
   return edges;
 }
 
-files::Grid edges_of(const files::Grid& grid, const Options& options) {
+files::Grid edges_of(const files::Grid& grid, const InterpolateOptions& options) {
   const files::Region r = options.box.empty() ? files::Region{} : region_of(options.box, "--box");
   const bool goes_around = options.registration == Registration::node && r.east - r.west == 360;
   return {edges_between(grid.lon, r.west, r.east, goes_around),
           edges_between(grid.lat, r.south, r.north, false)};
 }
 
-To format_of(const Options& options) {
+To format_of(const InterpolateOptions& options) {
   const std::map<std::string, To> names{{"text", To::text}, {".txt", To::text},     {"csv", To::csv},
                                         {".csv", To::csv},  {"netcdf", To::netcdf}, {".nc", To::netcdf}};
   const auto found = names.find(
@@ -107,7 +107,7 @@ To format_of(const Options& options) {
   return To::text;
 }
 
-files::Nodes read_values(Options& options) {
+files::Nodes read_values(InterpolateOptions& options) {
   files::Nodes nodes = read_places(options.input.file, options.input.read);
   if (options.input.read.with_values)
     leave_out(
@@ -125,7 +125,7 @@ files::Nodes read_values(Options& options) {
 }
 
 /// Reads the places with the columns of their file, and x y z if these were given.
-files::Nodes read_points(const Options& options) {
+files::Nodes read_points(const InterpolateOptions& options) {
   files::ReadOptions read;
   read.units = options.input.read.units;
   read.keep_missing = options.input.read.keep_missing;
@@ -141,7 +141,7 @@ files::Nodes read_points(const Options& options) {
   return places;
 }
 
-void interpolate(Options& options) {
+void interpolate(InterpolateOptions& options) {
   if (options.points.empty() && options.grid.empty() && options.step == 0)
     throw CLI::ValidationError("--to-points", "give one of --to-points, --to-grid, --grid-step");
   const bool has_values = !options.output.empty(), has_weights = !options.weights.empty();
@@ -218,7 +218,7 @@ void interpolate(Options& options) {
 void add_interpolate(CLI::App& app, Command& chosen) {
   CLI::App* const sub = app.add_subcommand(
       "interpolate", "interpolates values at scattered nodes to points or to a longitude-latitude grid");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<InterpolateOptions>();
   option(*sub, "VALUES", options->input.file, "file of nodes and values; - is stdin")->required();
   option(*sub, "--variable NAME", options->input.read.variable,
          "the value: its name, or in text its column, from 1 [the only one; in text without a header "

@@ -18,7 +18,7 @@ namespace {
 
 using pictures::MeshOptions;
 
-struct Options {
+struct PlotOptions {
   Input input;
   MeshOptions mesh;
   std::string file, to, view, colour = "none", box, range;
@@ -68,7 +68,7 @@ void set_colour(const std::string& text, MeshOptions& mesh) {
   if (are_stripes) mesh.partition = pstripack::PartitionKind::stripes;
 }
 
-void set_box(const Options& options, MeshOptions& mesh) {
+void set_box(const PlotOptions& options, MeshOptions& mesh) {
   mesh.region = region_of(options.box, "--box");
   mesh.lonlat = true;
   if (mesh.radius || (!options.view.empty() && options.view != "lonlat"))
@@ -100,7 +100,7 @@ void expect_column(const files::Nodes& nodes, const std::string& name) {
                                        name, files::did_you_mean(name, names), files::listed(names)));
 }
 
-void plot(Options& options) {
+void plot(PlotOptions& options) {
   const std::string suffix =
       options.to.empty() ? std::filesystem::path(options.file).extension().string() : "." + options.to;
   const bool globe = suffix == ".html";
@@ -155,7 +155,7 @@ void add_plot(CLI::App& app, Command& chosen) {
   CLI::App* const sub = app.add_subcommand("plot",
                                            "picture of the triangulation or its Voronoi cells: SVG; "
                                            "a globe to turn: HTML");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PlotOptions>();
   add_input(*sub, options->input);
   add_duplicates(*sub, options->input);
   option(*sub, "-o,--output FILE", options->file,

@@ -14,7 +14,7 @@
 namespace program {
 namespace {
 
-struct Options {
+struct PointsOptions {
   std::string name;
   std::size_t n = 0;
   std::uint64_t seed = 1;
@@ -31,7 +31,7 @@ std::string families() {
   return text + "\n\n";
 }
 
-void write(Options& options) {
+void write(PointsOptions& options) {
   options.output.choose(files::Format::xyz);
   if (!files::holds_nodes(options.output.format)) {
     // By its suffix, .nc is a UGRID mesh, which cannot hold nodes alone.
@@ -59,7 +59,7 @@ void write(Options& options) {
 
 void add_points(CLI::App& app, Command& chosen) {
   CLI::App* const sub = app.add_subcommand("points", "test nodes of many kinds");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PointsOptions>();
   option(*sub, "NAME", options->name, "family of nodes, see below")->required();
   option(*sub, "N", options->n, "number of nodes; grids take the nearest number they can have")
       ->required()

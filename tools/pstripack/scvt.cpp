@@ -44,7 +44,7 @@ using pstripack::Communicator;
 
 enum class First { by_number, front, levels, random };
 
-struct Options {
+struct ScvtOptions {
   std::size_t n = 0;
   std::uint64_t seed = 1;
   First first = First::by_number;
@@ -77,18 +77,18 @@ constexpr auto kEvaluations = "scvt_iterations", kSteps = "scvt_steps", kPairs =
                kExponent = "scvt_exponent", kMark = "scvt_mark", kEnergy = "scvt_energy_at_mark";
 
 // The options that are stored in others: those that say the density.
-constexpr std::pair<const char*, std::string Options::*> kStored[] = {
-    {"scvt_density", &Options::density},
-    {"scvt_density_file", &Options::density_file},
-    {"scvt_width_file", &Options::width_file},
-    {"scvt_width", &Options::width_text},
-    {"scvt_width_region", &Options::width_region},
-    {"scvt_width_distance", &Options::width_distance},
-    {"scvt_density_variable", &Options::variable},
-    {"scvt_region", &Options::region},
-    {"scvt_sides", &Options::sides}};
-constexpr std::pair<const char*, double Options::*> kStoredNumbers[] = {{"scvt_radius", &Options::radius},
-                                                                        {"scvt_grade", &Options::grade}};
+constexpr std::pair<const char*, std::string ScvtOptions::*> kStored[] = {
+    {"scvt_density", &ScvtOptions::density},
+    {"scvt_density_file", &ScvtOptions::density_file},
+    {"scvt_width_file", &ScvtOptions::width_file},
+    {"scvt_width", &ScvtOptions::width_text},
+    {"scvt_width_region", &ScvtOptions::width_region},
+    {"scvt_width_distance", &ScvtOptions::width_distance},
+    {"scvt_density_variable", &ScvtOptions::variable},
+    {"scvt_region", &ScvtOptions::region},
+    {"scvt_sides", &ScvtOptions::sides}};
+constexpr std::pair<const char*, double ScvtOptions::*> kStoredNumbers[] = {
+    {"scvt_radius", &ScvtOptions::radius}, {"scvt_grade", &ScvtOptions::grade}};
 
 std::string note(const files::Notes& notes, const std::string& name) {
   const auto found = notes.find(name);
@@ -109,7 +109,7 @@ std::int64_t count_in(const files::Nodes& start, const char* name, std::int64_t 
 // Variables that hold widths of cells, never densities.
 constexpr const char* kNamesOfWidths[] = {"cellWidth", "width", "resolution"};
 
-std::unique_ptr<engine::Density> density_in_file(const Options& options) {
+std::unique_ptr<engine::Density> density_in_file(const ScvtOptions& options) {
   files::ReadOptions read = options.start.read;
   read.with_values = true;
   read.variable = options.variable;
@@ -131,7 +131,7 @@ std::unique_ptr<engine::Density> density_in_file(const Options& options) {
 }
 
 /// Sets N to the number of cells that have these widths, unless N is given, and says so.
-void choose_n(Options& options, double cells) {
+void choose_n(ScvtOptions& options, double cells) {
   constexpr double kMost = 357913943;
   if (options.n > 0 || !options.start.file.empty()) {
     if (options.n > 0)
@@ -159,7 +159,7 @@ void check_memory(double generators) {
 }
 
 /// The widths, limited in their gradient.
-methods::Widths widths_of(methods::Table table, const Options& options) {
+methods::Widths widths_of(methods::Table table, const ScvtOptions& options) {
   const double radius = options.radius / 1000, before = methods::cells_of(table, radius);
   const methods::Lowered lowered = methods::limit_gradient(table, options.grade, radius);
   methods::Widths widths = methods::widths_of(std::move(table), radius);
@@ -180,7 +180,7 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-methods::Widths widths_in_file(const Options& options) {
+methods::Widths widths_in_file(const ScvtOptions& options) {
   files::ReadOptions read = options.start.read;
   read.with_values = true;
   read.variable = options.variable;
@@ -235,7 +235,7 @@ bool is_name(const std::string& width) {
 }
 
 /// Those of --width.
-methods::Widths widths_of_formula(const Options& options) {
+methods::Widths widths_of_formula(const ScvtOptions& options) {
   if (is_name(options.width_text)) return widths_of(methods::widths_of_name(options.width_text), options);
   methods::WidthFormula formula(options.width_text);
   if (formula.limit(options.grade))
@@ -245,7 +245,7 @@ methods::Widths widths_of_formula(const Options& options) {
 }
 
 /// Those of the regions, and of the formula elsewhere.
-methods::Widths widths_of_regions(const Options& options) {
+methods::Widths widths_of_regions(const ScvtOptions& options) {
   const methods::WidthFormula elsewhere(options.width_text);
   const auto regions = files::read_width_regions(options.width_region);
   methods::Table table = in_file(options.width_region, [&] {
@@ -254,7 +254,7 @@ methods::Widths widths_of_regions(const Options& options) {
   return widths_of(std::move(table), options);
 }
 
-methods::Widths widths_of_distance(const Options& options) {
+methods::Widths widths_of_distance(const ScvtOptions& options) {
   const methods::WidthDistance given(options.width_distance);
   std::vector<files::Line> lines;
   for (const files::Shape& shape :
@@ -264,7 +264,7 @@ methods::Widths widths_of_distance(const Options& options) {
 }
 
 /// How many cells have --width, if it is one width on the whole sphere; 0: it is not.
-double cells_of_one_width(const Options& options) {
+double cells_of_one_width(const ScvtOptions& options) {
   const std::string& text = options.width_text;
   if (text.empty() || !(options.width_region + options.region).empty()) return 0;
   if (is_name(text)) return cells_of_quasi_uniform(text);
@@ -273,7 +273,7 @@ double cells_of_one_width(const Options& options) {
 }
 
 /// The density of the widths; chooses N.
-std::unique_ptr<engine::Density> density_of_widths(Options& options) {
+std::unique_ptr<engine::Density> density_of_widths(ScvtOptions& options) {
   methods::Widths widths = !options.width_region.empty() ? widths_of_regions(options)
                            : !options.width_text.empty() ? widths_of_formula(options)
                            : !options.width_file.empty() ? widths_in_file(options)
@@ -293,7 +293,7 @@ std::unique_ptr<engine::Density> density_of_widths(Options& options) {
   return std::move(widths.density);
 }
 
-std::unique_ptr<engine::Density> make_density(Options& options) {
+std::unique_ptr<engine::Density> make_density(ScvtOptions& options) {
   if (options.has_widths()) return density_of_widths(options);
   if (!options.density_file.empty()) return density_in_file(options);
   if (options.density == "constant") options.nominal = std::sqrt(methods::cells_of_width(1, 1));
@@ -301,7 +301,7 @@ std::unique_ptr<engine::Density> make_density(Options& options) {
 }
 
 /// Sets the density: that of the command line, else that of the start, else constant.
-void choose_density(Options& options, const files::Notes& notes) {
+void choose_density(ScvtOptions& options, const files::Notes& notes) {
   for (const auto& [name, option] : kStoredNumbers)
     if (options.*option == 0) point_sets::parse(note(notes, name), options.*option);
   if (!(options.radius > 0)) options.radius = 6371220;  // that of MPAS' and E3SM's tools
@@ -333,7 +333,7 @@ void choose_density(Options& options, const files::Notes& notes) {
 }
 
 /// Empty: not used.
-files::Notes notes_of_density(const Options& options) {
+files::Notes notes_of_density(const ScvtOptions& options) {
   files::Notes notes;
   for (const auto& [name, option] : kStored) notes[name] = options.*option;
   for (const auto& [name, option] : kStoredNumbers)
@@ -341,7 +341,7 @@ files::Notes notes_of_density(const Options& options) {
   return notes;
 }
 
-files::Notes notes_of(const Options& options, const State& state, const engine::Progress& reached) {
+files::Notes notes_of(const ScvtOptions& options, const State& state, const engine::Progress& reached) {
   files::Notes notes;
   for (const auto& [name, text] : notes_of_density(options))
     if (!text.empty()) notes[name] = text;
@@ -358,7 +358,7 @@ files::Notes notes_of(const Options& options, const State& state, const engine::
 }
 
 /// True if the file has the density of this run.
-bool has_density_of(const files::Notes& notes, const Options& options) {
+bool has_density_of(const files::Notes& notes, const ScvtOptions& options) {
   const files::Notes chosen = notes_of_density(options);
   return std::all_of(chosen.begin(), chosen.end(),
                      [&](const auto& entry) { return note(notes, entry.first) == entry.second; });
@@ -418,7 +418,7 @@ void number(Tessellation& t) {
 
 /// The state of a run from its file; the generators and pairs of rank 0. Pairs are used only if the density
 /// is the same and the method is not Lloyd's, which needs none. Collective.
-Tessellation tessellation_of(Communicator& ranks, files::Nodes& start, Options& options) {
+Tessellation tessellation_of(Communicator& ranks, files::Nodes& start, ScvtOptions& options) {
   Tessellation t;
   pstripack::OnAll have_pairs;
   in_agreement_with_caller(
@@ -466,8 +466,8 @@ void write(const Output& output, files::Mesh& mesh) {
 
 /// Writes the generators of all ranks on rank 0, or those in the region. A checkpoint gets all, and the
 /// pairs; for other files rank 0 returns the quality of the mesh. Collective.
-methods::Quality write(Communicator& ranks, const Options& options, bool is_checkpoint, const Tessellation& t,
-                       const engine::Density& density, files::Notes&& notes) {
+methods::Quality write(Communicator& ranks, const ScvtOptions& options, bool is_checkpoint,
+                       const Tessellation& t, const engine::Density& density, files::Notes&& notes) {
   const Output& output = is_checkpoint ? options.checkpoint : options.output;
   Tessellation all = on_rank_0(ranks, t);
   methods::Quality quality;
@@ -495,7 +495,8 @@ methods::Quality write(Communicator& ranks, const Options& options, bool is_chec
 }
 
 /// The generators of a new run, those of the last level if there are levels. Collective.
-Tessellation first_tessellation(const Options& options, engine::Evaluator& evaluator, Progress& progress) {
+Tessellation first_tessellation(const ScvtOptions& options, engine::Evaluator& evaluator,
+                                Progress& progress) {
   const bool is_alone = evaluator.ranks().size() == 1, is_regional = !options.region.empty();
   const First first = options.first != First::by_number                                   ? options.first
                       : is_regional || (options.n >= engine::kFewestOfAFront && is_alone) ? First::front
@@ -516,7 +517,7 @@ Tessellation first_tessellation(const Options& options, engine::Evaluator& evalu
   on_levels.method = options.method;
   on_levels.tolerance = options.tolerance;
   on_levels.most_evaluations =
-      Options().evaluations;  // the default, so that a run that is cut short has the same levels
+      ScvtOptions().evaluations;  // the default, so that a run that is cut short has the same levels
   on_levels.progress = [&](const engine::Progress& p) {
     progress.now(fmt::format("level of {} generators, {} evaluations, gradient {:.3g}", p.generators,
                              p.evaluations, p.gradient));
@@ -548,7 +549,7 @@ constexpr int kSettled = -1;
 
 /// Returns the signal that ended the iterations, on any rank, SIGALRM for the time limit, or kSettled; 0:
 /// nothing did. Collective.
-int iterate(Options& options, engine::Evaluator& evaluator, Tessellation& t, Progress& progress) {
+int iterate(ScvtOptions& options, engine::Evaluator& evaluator, Tessellation& t, Progress& progress) {
   engine::Options of_run;
   of_run.method = options.method;
   of_run.tolerance = options.tolerance;
@@ -580,7 +581,7 @@ int iterate(Options& options, engine::Evaluator& evaluator, Tessellation& t, Pro
   return has_settled ? kSettled : static_cast<int>(signal.value);
 }
 
-std::string end_of(const Options& options, const Tessellation& t, bool has_moved, int signal) {
+std::string end_of(const ScvtOptions& options, const Tessellation& t, bool has_moved, int signal) {
   const auto end = [&] {
     switch (t.result.end) {
       case engine::End::converged:
@@ -608,8 +609,8 @@ std::string end_of(const Options& options, const Tessellation& t, bool has_moved
 }
 
 /// One line if triangles are left that were to be repaired, or, with --strict, if the run has not converged.
-std::string what_is_missing(const Options& options, const Tessellation& t, const methods::Quality& quality,
-                            int signal) {
+std::string what_is_missing(const ScvtOptions& options, const Tessellation& t,
+                            const methods::Quality& quality, int signal) {
   const std::int64_t obtuse = options.region.empty() ? t.repair.obtuse
                               : options.well_centred ? quality.obtuse
                                                      : 0;
@@ -632,7 +633,7 @@ std::string what_is_missing(const Options& options, const Tessellation& t, const
 }
 
 /// Reads the nodes to start from on rank 0; the other ranks get only their notes. Collective.
-files::Nodes read_start(Communicator& ranks, const Options& options) {
+files::Nodes read_start(Communicator& ranks, const ScvtOptions& options) {
   files::Nodes start;
   std::string notes;
   in_agreement_with_caller(ranks, [&] {
@@ -651,7 +652,7 @@ files::Nodes read_start(Communicator& ranks, const Options& options) {
 }
 
 /// The command, on all ranks.
-void scvt(Options& options, Ranks& ranks) {
+void scvt(ScvtOptions& options, Ranks& ranks) {
   Communicator& communicator = ranks.communicator;
   in_agreement_with_caller(communicator, [&] {
     if (communicator.rank() > 0) return;
@@ -705,7 +706,7 @@ void scvt(Options& options, Ranks& ranks) {
   }
 }
 
-void scvt(Options& options) {
+void scvt(ScvtOptions& options) {
   if (options.start.file.empty() ? options.n == 0 && !options.has_widths() : options.n > 0)
     throw CLI::ValidationError("N", "give either N or widths, for new generators, or --start FILE");
   if (!options.region.empty() && options.start.file.empty() && !options.has_widths())
@@ -746,7 +747,7 @@ std::function<std::string(const std::string&)> parsed_by(const Parse& parse) {
 void add_scvt(CLI::App& app, Command& chosen) {
   CLI::App* const sub = app.add_subcommand(
       "scvt", "spherical centroidal Voronoi tessellation: moves generators to the centroids of their cells");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ScvtOptions>();
   option(*sub, "N", options->n, "number of generators, unless widths or --start are given")
       ->transform(whole_number())
       ->check(CLI::Range(std::size_t{4}, std::size_t{357913943}).description(""));

@@ -14,7 +14,7 @@
 namespace program {
 namespace {
 
-struct Options {
+struct TriangulateOptions {
   Input input;
   Output output;
   std::string clip_to;  ///< of `voronoi`: a box, or a file of polygons
@@ -24,7 +24,7 @@ struct Options {
 
 /// `write(file, mesh)` writes the result and returns its description for the last line.
 template <class Write>
-void run(Options& options, const Write& write) {
+void run(TriangulateOptions& options, const Write& write) {
   options.output.choose();
   if (is_box(options.clip_to)) region_of(options.clip_to, "--clip-to");  // check the option before reading
   files::OutputFile file(options.output.file);
@@ -41,7 +41,7 @@ void run(Options& options, const Write& write) {
   progress.finish(fmt::format("{} ({}), {}", counted(nodes.points.size(), "node"), nodes.kind, what));
 }
 
-void triangulate(Options& options) {
+void triangulate(TriangulateOptions& options) {
   if (options.longest.radians == 0 && !options.longest.text.empty())
     throw CLI::ValidationError("--longest", "'" + options.longest.text + "' leaves out everything");
   run(options, [&](files::OutputFile& file, files::Mesh& mesh) {
@@ -58,7 +58,7 @@ void triangulate(Options& options) {
 
 /// Says which cell is a hundred times the median: that of a station at the edge of a region, most likely,
 /// which gets a part of the rest of the sphere. No cell is larger than a hemisphere.
-void tell_huge_cell(const Options& options, const files::Faces& faces, const files::Mesh& mesh) {
+void tell_huge_cell(const TriangulateOptions& options, const files::Faces& faces, const files::Mesh& mesh) {
   std::vector<double> sorted = faces.area;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
@@ -79,7 +79,7 @@ void clip(files::Faces& faces, const std::string& to) {
   if (faces.size() == 0) throw files::NoMesh(to + " holds no part of the cells that is wider than rounding");
 }
 
-void voronoi(Options& options) {
+void voronoi(TriangulateOptions& options) {
   run(options, [&](files::OutputFile& file, const files::Mesh& mesh) {
     const bool are_whole = options.clip_to.empty() && !options.clip_to_hull;
     files::Faces faces = files::voronoi_faces(mesh);
@@ -95,10 +95,10 @@ void voronoi(Options& options) {
   });
 }
 
-std::shared_ptr<Options> add(CLI::App& app, const char* name, const char* text, void (*command)(Options&),
-                             Command& chosen) {
+std::shared_ptr<TriangulateOptions> add(CLI::App& app, const char* name, const char* text,
+                                        void (*command)(TriangulateOptions&), Command& chosen) {
   CLI::App* const sub = app.add_subcommand(name, text);
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<TriangulateOptions>();
   add_input(*sub, options->input);
   add_duplicates(*sub, options->input);
   add_output(*sub, options->output, true);
