@@ -121,7 +121,7 @@ def test_documented_formats_and_densities_are_those_of_help():
     offered = [line.split() for line in section("triangulate", "Formats and their suffixes:")]
     offered = [[words[0], *takewhile(lambda word: word.startswith("."), words[1:])] for words in offered]
     assert sorted(written) == sorted(words for words in offered if len(words) > 1)
-    formulas = re.search(r"(?s)\nFormulas: (.*?)\(`--help`\)", read(ROOT / "docs/scvt.md"))[1]
+    formulas = re.search(r"(?s)\nFormulas are (.*?)\(`--help`\)", read(ROOT / "docs/scvt.md"))[1]
     densities = [re.match(r"  ([a-z]*)", line)[1] for line in section("scvt", "Densities:")]
     assert set(re.findall(r"`([a-z]*)`", formulas)) == set(densities) - {""}
 
