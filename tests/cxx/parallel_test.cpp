@@ -570,6 +570,14 @@ ParallelCost cost_of(const std::string& family, int patches, std::size_t most_qu
 
 TEST(GivingUp, WhereThereAreTooManyQuestions) { EXPECT_EQ(cost_of("ring", 4, 100).in_one_patch, 1); }
 
+TEST(GivingUp, BeforeTheTriangulationWherePatchesWouldNotPay) {
+  for (const char* family : {"moment:6", "crossing:1e-3", "nest:150"}) {
+    const ParallelCost cost = cost_of(family, 2, 2500);
+    EXPECT_EQ(cost.in_one_patch, 1) << family;
+    EXPECT_EQ(cost.halo, 0) << family << ": nodes were delivered";
+  }
+}
+
 TEST(GivingUp, NotWhereTheyPay) {
   for (const char* family :
        {"random", "latlon", "earth", "variable:1e6", "hemisphere", "box", "cap:0.0175", "strip:1e-15",

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "geometry/predicates.h"
+#include "mesh/delaunay.h"
 #include "parallel/agreement.h"
 #include "parallel/homes.h"
 #include "parallel/sample.h"
@@ -111,6 +112,53 @@ Outcome cut_anew(const LocalNodes& nodes, GlobalSample& sample, PartitionKind ki
   return outcome;
 }
 
+/// About `most` nodes of the sample and all corners, each once.
+std::vector<SentNode> some_of(const std::vector<SentNode>& sample, std::size_t most, const Corners& corners) {
+  std::map<GlobalNumber, Point> points;
+  for (const SentNode& r : corners) points.emplace(r.number, r.point);
+  const std::size_t step = sample.size() / most + 1;
+  for (std::size_t k = 0; k < sample.size(); k += step) points.emplace(sample[k].number, sample[k].point);
+  std::vector<SentNode> some;
+  for (const auto& [number, point] : points) some.push_back({point, number});
+  return some;
+}
+
+/// True if more than a third of the triangles of these nodes have corners in different patches, or, if these
+/// are more than `parts`, in different parts of so many.
+bool cuts_many_triangles(const Partition& partition, std::size_t parts, const std::vector<SentNode>& nodes,
+                         const Places& places) {
+  const auto patches = static_cast<std::size_t>(partition.patches());
+  std::vector<std::size_t> part;
+  std::vector<Point> points;
+  for (const SentNode& r : nodes) {
+    points.push_back(r.point);
+    const auto owner = static_cast<std::size_t>(partition.owner(places(r.point)));
+    part.push_back(patches > parts ? owner * parts / patches : owner);
+  }
+  Workspace workspace(workspace_bytes(points.size()));
+  const Hull hull = delaunay(points.data(), points.size(), workspace);
+  std::size_t triangles = 0, cut = 0;
+  for (std::size_t t = 0; t < hull.face_count; ++t) {
+    if (!hull.front(t)) continue;
+    const auto part_of = [&](int i) { return part[hull.order[hull.faces[t].vertex[i]]]; };
+    ++triangles;
+    cut += part_of(0) != part_of(1) || part_of(1) != part_of(2);
+  }
+  return 3 * cut > triangles;
+}
+
+/// True if neighbours in the mesh may be far from each other, as along lines that cross.
+bool cuts_many_triangles(const Division& division, const std::vector<SentNode>& sample,
+                         const Corners& corners) {
+  constexpr std::size_t kEnough = 64, kQuarters = 4;
+  const auto cuts_many = [&](std::size_t parts, const std::vector<SentNode>& nodes) {
+    return cuts_many_triangles(*division.partition, parts, nodes, division.places);
+  };
+  // A few nodes tell first: this costs next to nothing.
+  return division.closing.size() >= kEnough && cuts_many(kQuarters, division.closing) &&
+         cuts_many(SIZE_MAX, some_of(sample, sample.size() + 1, corners));
+}
+
 }  // namespace
 
 Division divide(const LocalNodes& nodes, const Corners& corners, const Places& places, Communicator& ranks,
@@ -119,12 +167,7 @@ Division divide(const LocalNodes& nodes, const Corners& corners, const Places& p
   Division division(places);
   GlobalSample sample = sample_of_all(nodes, ranks, options, division);
   Outcome outcome = Outcome::of([&] {
-    std::map<GlobalNumber, Point> closing;
-    for (const SentNode& r : corners) closing.emplace(r.number, r.point);
-    const std::size_t step = sample.nodes.size() / options.closing_nodes + 1;
-    for (std::size_t k = 0; k < sample.nodes.size(); k += step)
-      closing.emplace(sample.nodes[k].number, sample.nodes[k].point);
-    for (const auto& [number, point] : closing) division.closing.push_back({point, number});
+    division.closing = some_of(sample.nodes, options.closing_nodes, corners);
     sort_along_curve(division.closing);
   });
   if (options.given != nullptr) {
@@ -134,7 +177,14 @@ Division divide(const LocalNodes& nodes, const Corners& corners, const Places& p
   } else {
     outcome = cut_anew(nodes, sample, options.partition, ranks, division, outcome);
   }
-  in_agreement(ranks, [&] { outcome.accept(); });
+  in_agreement(ranks, [&] {
+    outcome.accept();
+    // A single process can give up now. Ranks have to send their nodes first.
+    const bool may_give_up = ranks.size() == 1 && division.patches.count() > 1 &&
+                             options.most_questions < nodes.count &&
+                             options.partition == PartitionKind::bisection;
+    if (may_give_up && cuts_many_triangles(division, sample.nodes, corners)) throw PatchesDoNotPay{};
+  });
   return division;
 }
 
