@@ -25,49 +25,56 @@ constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 }  // namespace
 
 /// Calls visit(i, place, near, state) for each place that has a direction. `near` is a node near it, from 1,
-/// which visit may update; `state` is one for each thread. Places are visited along a space-filling curve.
-/// Searches restart in each block of places, so results do not depend on the number of threads.
+/// which visit may update. Returns the states, one for each thread. Places are visited along a space-filling
+/// curve. Searches restart in each block of places, so results do not depend on the number of threads.
 template <class State, class Visit>
-void Triangulation::visit_places(const Point* places, std::size_t count, const Visit& visit) {
-  constexpr std::size_t kBlock = 512;
+std::vector<State> Triangulation::visit_places(const Point* places, std::size_t count, const Visit& visit) {
+  constexpr std::size_t kBlock = 512, kMost = std::size_t{1} << 28;
   constexpr std::chrono::milliseconds kPause(200);
-  if (count > std::numeric_limits<std::uint32_t>::max())
-    throw std::length_error("more than 2^32 - 1 places: pass them in parts");
-  Buffer<Point> known(count);
-  for (std::size_t i = 0; i < count; ++i)
-    known[i] = has_direction(places[i]) ? direction(places[i]) : Point{0, 0, 1};
-  Buffer<std::uint32_t> order(count);
-  pstripack::Workspace workspace(16 * count);
-  pstripack::insertion_order(known.data(), count, order.data(), workspace);
-  std::atomic<bool> is_over{false};
-  const std::thread::id caller = std::this_thread::get_id();
-  auto last = std::chrono::steady_clock::now();
-  const auto pause = [&] {
-    const auto now = std::chrono::steady_clock::now();
-    if (between_places == nullptr || std::this_thread::get_id() != caller || now - last < kPause) return;
-    last = now;
-    try {
-      between_places();
-    } catch (...) {
-      is_over = true;
-      throw;
-    }
-  };
   const int threads = pstripack::threads_for(20 * count);
-  pstripack::ErrorsOfThreads errors(static_cast<std::size_t>(threads));
-  const std::size_t blocks = (count + kBlock - 1) / kBlock;
-  pstripack::parallel_pieces(blocks, threads, [&](std::size_t begin, std::size_t end, int piece) {
-    errors.keep(static_cast<std::size_t>(piece), [&] {
-      State state;
-      for (std::size_t block = begin; block < end && !is_over; ++block) {
-        pause();
-        std::int32_t near = 1;
-        for (std::size_t k = block * kBlock; k < std::min((block + 1) * kBlock, count); ++k)
-          if (const Point& p = places[order[k]]; has_direction(p)) visit(order[k], p, near, state);
+  std::vector<State> states(static_cast<std::size_t>(threads));
+  for (std::size_t first = 0; first < count; first += kMost) {
+    const std::size_t part = std::min(count - first, kMost);
+    Buffer<Point> known(part);
+    for (std::size_t i = 0; i < part; ++i) {
+      const Point& p = places[first + i];
+      known[i] = has_direction(p) ? direction(p) : Point{0, 0, 1};
+    }
+    Buffer<std::uint32_t> order(part);
+    pstripack::Workspace workspace(16 * part);
+    pstripack::insertion_order(known.data(), part, order.data(), workspace);
+    const std::size_t blocks = (part + kBlock - 1) / kBlock;
+    pstripack::ErrorsOfThreads errors(states.size());
+    std::atomic<bool> is_over{false};
+    const std::thread::id caller = std::this_thread::get_id();
+    auto last = std::chrono::steady_clock::now();
+    const auto pause = [&] {
+      const auto now = std::chrono::steady_clock::now();
+      if (between_places == nullptr || std::this_thread::get_id() != caller || now - last < kPause) return;
+      last = now;
+      try {
+        between_places();
+      } catch (...) {
+        is_over = true;
+        throw;
       }
+    };
+    pstripack::parallel_pieces(blocks, threads, [&](std::size_t begin, std::size_t end, int piece) {
+      const auto thread = static_cast<std::size_t>(piece);
+      errors.keep(thread, [&] {
+        for (std::size_t block = begin; block < end && !is_over; ++block) {
+          pause();
+          std::int32_t near = 1;
+          for (std::size_t k = block * kBlock; k < std::min((block + 1) * kBlock, part); ++k) {
+            const std::size_t i = order[k];
+            if (has_direction(places[first + i])) visit(first + i, places[first + i], near, states[thread]);
+          }
+        }
+      });
     });
-  });
-  errors.rethrow();
+    errors.rethrow();
+  }
+  return states;
 }
 
 namespace {
@@ -78,28 +85,52 @@ struct Cubic {
   std::vector<methods::Share> shares;
   std::vector<Point> ways;
 };
+
+/// Of each thread: what it found, place after place, and what it needs for that.
+template <class State>
+struct alignas(64) Found {
+  std::vector<methods::Share> shares;
+  State state;
+};
 }  // namespace
 
 /// The rows that find(place, near, shares, state) finds. It may change `near`, as visit_places says.
 template <class State, class Find>
 Rows Triangulation::rows(const Point* places, std::size_t count, const Find& find) {
-  std::vector<std::vector<methods::Share>> found(count);
-  visit_places<std::pair<std::vector<methods::Share>, State>>(
-      places, count, [&](std::size_t i, const Point& p, std::int32_t& near, auto& thread) {
-        find(p, near, thread.first, thread.second);
-        found[i] = thread.first;
+  struct Row {
+    const Found<State>* by;
+    std::size_t begin, size;
+  };
+  Buffer<Row> found(count);
+  std::fill(found.begin(), found.end(), Row{nullptr, 0, 0});
+  const std::vector<Found<State>> threads = visit_places<Found<State>>(
+      places, count, [&](std::size_t i, const Point& p, std::int32_t& near, Found<State>& thread) {
+        thread_local std::vector<methods::Share> shares;
+        find(p, near, shares, thread.state);
+        found[i] = {&thread, thread.shares.size(), shares.size()};
+        thread.shares.insert(thread.shares.end(), shares.begin(), shares.end());
       });
   Rows rows;
+  rows.begin = Buffer<std::int32_t>(count + 1);
   std::size_t all = 0;
-  for (const std::vector<methods::Share>& shares : found) all += shares.size();
-  if (all > std::numeric_limits<std::int32_t>::max())
-    throw std::length_error("more than 2^31 - 1 pairs of a place and a node: pass the places in parts");
-  rows.nodes.reserve(all), rows.numbers.reserve(all);
-  rows.begin.push_back(0);
-  for (const std::vector<methods::Share>& shares : found) {
-    rows.begin.push_back(rows.begin.back() + static_cast<std::int32_t>(shares.size()));
-    for (const auto& [node, part] : shares) rows.nodes.push_back(node - 1), rows.numbers.push_back(part);
+  for (std::size_t i = 0; i < count; ++i) {
+    rows.begin[i] = static_cast<std::int32_t>(all);
+    all += found[i].size;
+    if (all > std::numeric_limits<std::int32_t>::max())
+      throw std::length_error("more than 2^31 - 1 pairs of a place and a node: pass the places in parts");
   }
+  rows.begin[count] = static_cast<std::int32_t>(all);
+  rows.nodes = Buffer<std::int32_t>(all);
+  rows.numbers = Buffer<double>(all);
+  pstripack::parallel_pieces(count, pstripack::threads_for(count),
+                             [&](std::size_t first, std::size_t last, int) {
+                               for (std::size_t i = first; i < last; ++i)
+                                 for (std::size_t k = 0; k < found[i].size; ++k) {
+                                   const auto& [node, part] = found[i].by->shares[found[i].begin + k];
+                                   const std::size_t to = static_cast<std::size_t>(rows.begin[i]) + k;
+                                   rows.nodes[to] = node - 1, rows.numbers[to] = part;
+                                 }
+                             });
   return rows;
 }
 

@@ -48,8 +48,8 @@ struct Runs {
 /// Nodes and a number of each, weight or distance, for each of several places: those of place i are
 /// begin[i] ... begin[i+1]-1.
 struct Rows {
-  std::vector<std::int32_t> begin, nodes;
-  std::vector<double> numbers;
+  Buffer<std::int32_t> begin, nodes;
+  Buffer<double> numbers;
 };
 
 /// The closest two nodes, and their straight distance on the unit sphere.
@@ -158,7 +158,7 @@ class Triangulation {
     return {lists(), {given_[0], given_[1], given_[2]}, {direction_[0], direction_[1], direction_[2]}};
   }
   template <class State, class Visit>
-  static void visit_places(const Point* places, std::size_t count, const Visit& visit);
+  static std::vector<State> visit_places(const Point* places, std::size_t count, const Visit& visit);
   template <class State, class Find>
   static Rows rows(const Point* places, std::size_t count, const Find& find);
 

@@ -13,10 +13,9 @@ namespace files {
 
 /// Writes a temporary file beside the final one; commit() renames it. Without commit(), or after SIGHUP,
 /// SIGINT, SIGPIPE, SIGQUIT, SIGTERM or SIGXCPU, nothing remains. After SIGKILL the temporary file remains.
-/// An existing file is replaced unless its
-/// permissions forbid to write it, also root, and the new one gets them. `-` is stdout: commit() copies to
-/// it, by whatever name, and to devices, pipes and open files without a name. At most two objects may exist
-/// at a time. Throws std::runtime_error "NAME: cannot be written: why".
+/// An existing file is replaced unless its permissions forbid to write it, also root, and the new one gets
+/// them. `-` is stdout: commit() copies to it, by whatever name, and to devices, pipes and open files without
+/// a name. At most two objects may exist at a time. Throws std::runtime_error "NAME: cannot be written: why".
 class OutputFile {
  public:
   explicit OutputFile(const std::string& name);

@@ -30,7 +30,7 @@ struct WrongArgument {
   std::int64_t value = 0;
 };
 
-/// The first rank that passes another value than rank 0. Collective.
+/// The first rank that passes another value than rank 0, and its value; rank -1 if there is none. Collective.
 WrongArgument first_different(std::int64_t value, Communicator& ranks);
 
 /// Properties of all points and their global numbers; the same on every rank, except `check`.
