@@ -2,7 +2,7 @@
 """Compares the time of the package with that of the library's own call and of SciPy, on random nodes: the least processor
 time of several runs in turn. With --program: the time of the command from a text file to UGRID beside that call.
 
-  benchmark.py [--nodes N] [--places M] [--repeats K] [--threads T] [--library libpstripack.so.0] [--program pstripack]
+  benchmark.py [--nodes N] [--places M] [--repeats K] [--threads T] [--library libpstripack.so.1] [--program pstripack]
 """
 import argparse
 import ctypes
@@ -66,7 +66,7 @@ def main():
     options.add_argument("--places", type=int, help="of searches and weights; as many as nodes by default")
     options.add_argument("--repeats", type=int, default=9)
     options.add_argument("--threads", type=int, default=1)
-    options.add_argument("--library", default=os.environ.get("PSTRIPACK_LIBRARY", "libpstripack.so.0"))
+    options.add_argument("--library", default=os.environ.get("PSTRIPACK_LIBRARY", "libpstripack.so.1"))
     options.add_argument("--program", metavar="PSTRIPACK", help="times this command, from text to UGRID")
     options.add_argument("--no-scipy", action="store_true", help="skips SciPy's diagrams, which take long")
     given = options.parse_args()

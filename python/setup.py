@@ -60,7 +60,7 @@ class SourcesOfProject(sdist):
 
 project = (PROJECT / "CMakeLists.txt").read_text()
 version = "".join(re.search(pattern, project)[1] for pattern in (r"project\(pstripack VERSION (\S+)",
-                                                                 r"set\(PSTRIPACK_CANDIDATE -?(\S*)\)"))
+                                                                 r"set\(PSTRIPACK_CANDIDATE ?-?(\S*)\)"))
 description = ast.get_docstring(ast.parse((HERE / "src/pstripack/__init__.py").read_text()))
 setup(version=version, long_description=description, long_description_content_type="text/x-rst",
       ext_modules=[Extension("pstripack._core", sources=[])],

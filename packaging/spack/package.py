@@ -4,7 +4,7 @@
 #   mkdir -p ~/pstripack-repo/packages/pstripack
 #   cp packaging/spack/package.py ~/pstripack-repo/packages/pstripack
 #   spack repo add ~/pstripack-repo
-#   spack dev-build pstripack@1.0.0-rc1
+#   spack dev-build pstripack@1.0.0
 from spack.package import *
 
 
@@ -14,7 +14,7 @@ class Pstripack(CMakePackage):
 
     license("BSD-3-Clause")
 
-    version("1.0.0-rc1")
+    version("1.0.0")
 
     variant("mpi", default=True, description="The libraries for MPI programs, and pstripack-run")
     variant("openmp", default=True, description="Threads")

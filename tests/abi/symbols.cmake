@@ -1,4 +1,4 @@
-# cmake -DNM=nm -DREADELF=readelf -DLIBRARY=lib.so -DARCHIVE=lib.a -DSONAME=lib.so.0 "-DNEEDS=^(libc|libm)$"
+# cmake -DNM=nm -DREADELF=readelf -DLIBRARY=lib.so -DARCHIVE=lib.a -DSONAME=lib.so.1 "-DNEEDS=^(libc|libm)$"
 #       "-DEXPECTED=a_;b_" [-DEXPECTED_LIKE=^a_] [-DONE_SYMBOL_AN_OBJECT=ON] -P symbols.cmake
 # Fails unless the library exports exactly the expected symbols (all like EXPECTED_LIKE, where the compiler adds some of
 # its own), has that soname, needs no other libraries, and reads the environment by secure_getenv alone; and unless the

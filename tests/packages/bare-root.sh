@@ -62,7 +62,7 @@ if [ "$packages" = --build ]; then
 fi
 inside "apt-get update -q"
 start=$(date +%s)
-inside "apt-get install -y -q ./libpstripack0_*.deb ./libpstripack-dev_*.deb"
+inside "apt-get install -y -q ./libpstripack1_*.deb ./libpstripack-dev_*.deb"
 inside "gfortran examples/fortran77/mesh.f -o mesh \$(pkg-config --libs stripack) && ./mesh"
 output_has "$answer"
 echo
