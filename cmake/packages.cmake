@@ -65,6 +65,7 @@ debian_package(runtime NAME libpstripack${soversion} SECTION libs
   SUMMARY "Delaunay triangulation on the sphere: drop-in replacement of STRIPACK"
   DESCRIPTION "${about}This package has the shared libraries, and links by which a program that is
 linked with another libstripack.so runs with them.")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_REPLACES libpstripack0)  # of 1.0.0-rc1: these links are at the same paths
 debian_package(development NAME libpstripack-dev SECTION libdevel
   DEPENDS libpstripack${soversion} RECOMMENDS gfortran pkg-config SUGGESTS libpstripack-mpi-dev g++
   SUMMARY "Delaunay triangulation on the sphere: to link programs"
