@@ -113,7 +113,7 @@ void add_run_options(CLI::App& app, RunOptions& options) {
   options.read.lengths_decide = false;
   app.add_option("--n", options.n, "number of nodes of a family [10000]");
   app.add_option("--seed", options.seed, "seed of families and of shuffling [1]");
-  choice("--order", options.orders, "given, shuffled, sorted (by latitude) [given]",
+  choice("--order", options.orders, "given, shuffled, sorted (by z) [given]",
          {"given", "shuffled", "sorted"});
   choice("--precision", options.precisions, "precision of the coordinates: r8, r4 [the original's]",
          {"r8", "r4"});

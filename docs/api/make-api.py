@@ -266,10 +266,10 @@ def wrong_codes(groups):
 
 IER_HEAD = """# Codes: what they mean, what to do
 
-0 is success. -1, -2 and numbers above 0 are STRIPACK's own codes and silent. The others are *new*: they also print one
-line on stderr with the [node](../glossary.md) and the reason. Each routine's page gives the state of its arrays; after a
-negative code of TRMESH they are unchanged. Only OpenMP's run-time
-library may end your program, if it gets no memory.
+0 is success. -1, -2 and numbers above 0 are STRIPACK's own codes; only EDGE and DELNOD print a message with some.
+The others are *new*: STRIPACK's routines also print one line on stderr with the reason. Each routine's page gives the
+state of its arrays; after a negative code of TRMESH they are unchanged. Only OpenMP's run-time library may end your
+program, if it gets no memory.
 
 A number below -2 has one meaning everywhere, which `pstripack_strerror` returns. -1 and -2 depend on the routine
 ([below](#stripacks-own-codes)); the table gives those of our own calls:"""
@@ -277,8 +277,8 @@ A number below -2 has one meaning everywhere, which `pstripack_strerror` returns
 IER_MIDDLE = """**L > 0 of TRMESH**: drop one of the two nodes. Often every column of a grid repeats the pole, or a
 meridian stands at 0 and at 360 degrees.
 
-**Distributed meshes.** Every rank gets the same code; the mesh is then empty. Rank 0 prints the line. `home`,
-and calls that return -8, print on every rank. `mesh%error_points` returns the points of -5, -9, -10 and -13.
+**Distributed meshes.** Every rank gets the same code; after `triangulate` and `scvt` the mesh is then empty. Rank 0
+prints the line; `home`, `exchange_end`, and calls where MPI must not be called print on their rank. `mesh%error_points` returns the points of -5, -9, -10 and -13.
 
 **Centroidal tessellations** return [a message](../scvt-interface.md#errors) and print nothing.
 
@@ -295,7 +295,7 @@ def markdown_ier(groups):
     rows = [[f"[{r.name}]({r.name.lower()}.md)" + (f" {r.ier_name}" if r.ier_name != "IER" else ""), value, when]
             for _, routines in groups for r in routines for value, when, _ in r.ier
             if value != "0" and not when.endswith("(new)")]
-    return "\n\n".join([IER_HEAD, markdown_table(["code", "name in C and Fortran", "meaning", "what to do, and more"], meanings),
+    return "\n\n".join([IER_HEAD, markdown_table(["code", "name in C; in Fortran except -15, -16", "meaning", "what to do, and more"], meanings),
                         IER_MIDDLE, markdown_table(["routine", "IER", "when"], rows)]) + "\n"
 
 

@@ -1,6 +1,7 @@
 !> PSTRIPACK for Fortran: the C API of libpstripack (pstripack.h).
 !>
-!> Nodes count from 1. No procedure is collective; any number of threads may call them at once.
+!> Nodes count from 1. No procedure is collective, except trmesh in comm mode (pstripack_mpi). Any number of threads may
+!> call them at once.
 module pstripack
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_f_pointer, c_float, c_funloc, c_funptr, c_int32_t, &
     c_int64_t, c_loc, c_null_char, c_null_funptr, c_null_ptr, c_ptr, c_size_t, c_sizeof
@@ -20,7 +21,8 @@ module pstripack
   public :: pstripack_scvt_coincident, pstripack_bad_density, pstripack_hemisphere, pstripack_bad_lists, &
             pstripack_bad_option
 
-  !> Results of pstripack_trmesh. Any other result is L > 0: nodes L and M > L coincide; M is the smallest such number.
+  !> Results of pstripack_trmesh; in comm mode also -7. Any other is L > 0: nodes L and M > L coincide; M is the smallest
+  !> such number.
   integer(c_int32_t), parameter :: pstripack_ok = 0, &
     pstripack_too_few_nodes = -1, &   !< fewer than 3 nodes
     pstripack_collinear = -2, &       !< the first three nodes lie on one great circle
@@ -31,8 +33,8 @@ module pstripack
 
   !> Further results of pstripack_scvt and pstripack_scvt_step.
   integer(c_int32_t), parameter :: &
-    pstripack_scvt_coincident = -9, &  !< two generators in the same direction
-    pstripack_bad_density = -11, &     !< the density is not positive, or not finite, at some place
+    pstripack_scvt_coincident = -9, &  !< two generators in the same direction, or a cell is too small
+    pstripack_bad_density = -11, &     !< the density is not positive and finite, varies too much, or a result overflows
     pstripack_hemisphere = -12, &      !< the generators lie in one hemisphere
     pstripack_bad_lists = -13, &       !< not the lists of a triangulation of the sphere by the generators
     pstripack_bad_option = -14         !< an option has a value that is not allowed
@@ -305,7 +307,7 @@ contains
   end subroutine
 
   !> The same for widths of cells in place of a density.
-  !>   width         widths of cells, in any unit: n is size(x); pstripack_scvt_cells tells a good n
+  !>   width         widths of cells, in any unit, since n is size(x); pstripack_scvt_cells tells a good n
   !>   well_centred  as the component of pstripack_scvt_options
   recursive subroutine pstripack_scvt_widths(x, y, z, result, ier, width, options, progress, well_centred, message)
     real(c_double), intent(inout), contiguous :: x(:), y(:), z(:)

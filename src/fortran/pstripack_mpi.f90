@@ -19,8 +19,8 @@ module pstripack_mpi
 
   !> Results in addition to those of module pstripack.
   integer(c_int32_t), parameter :: &
-    pstripack_empty_mesh = -3, &      !< the mesh has no triangulation, or was not created
-    pstripack_ranks_disagree = -7, &  !< the ranks of a collective call disagree in N, data, PSTRIPACK_ORDER or root
+    pstripack_empty_mesh = -3, &      !< the mesh has no triangulation or was not created; no exchange is under way
+    pstripack_ranks_disagree = -7, &  !< ranks disagree in N, data, PSTRIPACK_ORDER, root, width, or the call
     pstripack_bad_comm = -8, &        !< null, freed, an inter-communicator; no such rank; MPI must not be called here
     pstripack_coincident = -9, &      !< two points in the same direction
     pstripack_bad_number = -10        !< a global number is below 1, occurs twice, or is not one of 1..N
@@ -283,7 +283,7 @@ contains
       ier = c_triangulate(mesh%handle, count_or_shape(xyz, size(number, kind=c_int64_t)), xyz, number)
   end subroutine
 
-  !> After ier = -5, -9, -10: the global numbers of the points that the error is about; 0 for none. Not collective.
+  !> After ier = -5, -9, -10, -13: the global numbers of the points that the error is about; 0 for none. Not collective.
   recursive subroutine error_points(mesh, first, second)
     class(pstripack_mesh), intent(in) :: mesh
     integer(c_int64_t), intent(out) :: first, second
@@ -318,7 +318,7 @@ contains
 
   !> Sets rank(i) to the rank (from 0) that should own the point xyz(:, i), so that each rank's points lie close
   !> together and all ranks have about the same number. Points that have been moved to these ranks keep them in later
-  !> calls, until some rank has an eighth more points than the average. ier: 0, pstripack_empty_mesh, -5 or
+  !> calls, until a rank has an eighth more points than when the patches were cut. ier: 0, pstripack_empty_mesh, -5 or
   !> pstripack_bad_size. Not collective.
   recursive subroutine home(mesh, xyz, rank, ier)
     class(pstripack_mesh), intent(in) :: mesh

@@ -58,9 +58,8 @@ module stripack
     ! IER  0 done; -1 N < 3; -2 nodes 1, 2, 3 lie on one great circle, by exact sign: number others first;
     !      L > 0 node L coincides with node M, the first that repeats an earlier one; -4 N > 357,913,943:
     !      6N-11 does not fit 32 bits; in libstripack_i8 too (new); -5 a coordinate is not finite, or a node
-    !      is (0,0,0) (new); -6 out of memory (new); -7 collective calls only: the ranks disagree in N, the
-    !      coordinates or PSTRIPACK_ORDER (new); -8 collective calls only: the communicator cannot be used
-    !      (new).
+    !      is (0,0,0) (new); -6 out of memory (new); -7 collective calls only: the ranks disagree in N or the
+    !      coordinates (new).
 #ifdef STRIPACK_8_ARGUMENTS
     subroutine trmesh(n, x, y, z, list, lptr, lend, ier)
       integer :: n, list(*), lptr(*), lend(n), ier
@@ -78,16 +77,15 @@ module stripack
     ! the triangle opposite each corner, 0 at the boundary. Rows 7-9 (NROW = 9): the arc opposite each corner.
     ! Triangles are numbered by their smallest corner, then in the order of its list; arcs from 1 to NA, in
     ! the order of their last triangle. CRLIST numbers triangles differently.
-    ! IER  0 done; 1 N < 3, or NROW is neither 6 nor 9; 2 not the lists of a triangulation: a neighbour does
-    !      not list the node; -6 out of memory (new).
+    ! IER  0 done; 1 N < 3, or NROW is neither 6 nor 9; 2 not the lists of a triangulation; -6 out of memory
+    !      (new).
     subroutine trlist(n, list, lptr, lend, nrow, nt, ltri, ier)
       integer :: n, list(*), lptr(*), lend(n), nrow, nt, ltri(nrow, *), ier
     end subroutine
 
     ! Lists the corners of the triangles.
-    ! Rows 1-3 of TRLIST's LTRI, with the same numbers.
-    ! IER  0 done; 1 N < 3; 2 not the lists of a triangulation: a neighbour does not list the node; -6 out of
-    !      memory (new).
+    ! Returns rows 1-3 of TRLIST's LTRI, with the same numbers.
+    ! IER  0 done; 1 N < 3; 2 not the lists of a triangulation; -6 out of memory (new).
     subroutine trlist2(n, list, lptr, lend, nt, ltri, ier)
       integer :: n, list(*), lptr(*), lend(n), nt, ltri(3, *), ier
     end subroutine
@@ -139,8 +137,8 @@ module stripack
     end function
 
     ! Finds the slot of a neighbour.
-    ! Returns the slot s with LIST(s) = NB, or LPL if NB is the last neighbour (LIST(LPL) is then NB or -NB)
-    ! or no neighbour: compare abs(LIST(s)) where that matters.
+    ! Returns the slot s with LIST(s) = NB, or LPL if NB is the last neighbour, or is no neighbour:
+    ! abs(LIST(LPL)) = NB only in the first case.
     ! Result  slot of NB in the list of node k, or LPL.
     integer function lstptr(lpl, nb, list, lptr)
       integer :: lpl, nb, list(*), lptr(*)
@@ -159,7 +157,7 @@ module stripack
 
     ! Deletes a node from a triangulation.
     ! Nodes K+1..N become K..N-1 in all arrays, coordinates included; N and LNEW decrease. The columns of IWK
-    ! hold the end points, in the new numbers, of the arcs that replace those of K, optimised.
+    ! hold the end points, in the new numbers, of the optimised arcs that replace those of K.
     ! A node with m neighbours needs m-3 columns of IWK, m-2 on the boundary. With fewer, IER = 2 and LWK
     ! returns the number.
     ! IER  0 done; 1 K outside 1..N, N < 4, or LWK < 0; 2 LWK is too small; 3 K has fewer than 3 neighbours,
@@ -182,8 +180,8 @@ module stripack
     end subroutine
 
     ! Forces an arc between two nodes.
-    ! Swaps arcs that cross IN1-IN2 until this arc exists, then optimises the new arcs beside it. So
-    ! boundaries of regions become arcs. Later calls of ADDNOD, DELNOD or OPTIM may swap the arc away.
+    ! Swaps arcs that cross IN1-IN2 until this arc exists, then optimises the new arcs beside it. This makes
+    ! boundaries of regions arcs. Later calls of ADDNOD, DELNOD or OPTIM may swap the arc away.
     ! On success IWK has the new arcs left of IN1-IN2, then a column (0,0), then the new arcs right of
     ! IN1-IN2. Left and right are exchanged if the search had to start from IN2. N columns suffice unless
     ! nodes are collinear.
@@ -204,8 +202,8 @@ module stripack
     ! Replaces arcs in IWK by the other diagonal of their quadrilateral where the circumcircle test requires
     ! it, and updates IWK. Passes follow each other until one makes no swap. Boundary arcs are skipped.
     ! OPTIM is told neither N nor the lengths of the arrays. With broken lists it reads outside LIST and LPTR
-    ! if LEND or LPTR is above 6N-12. It uses a node number above all in IWK only if the lists of both ends of
-    ! an arc agree on it; if both are wrong, it also reads outside X, Y, Z and LEND.
+    ! if LEND or LPTR is above 6N-12. It uses a node number larger than any in IWK only if the lists of both
+    ! ends of an arc agree on it. If both are wrong, it also reads outside X, Y, Z and LEND.
     ! IER  0 done: the last pass made no swap; 1 NIT passes did not suffice; 2 NA < 0 or NIT < 1; 3 a column
     !      is not an arc of the triangulation; 4 the other diagonal of a quadrilateral is already an arc: not
     !      a triangulation; -13 not the lists of a triangulation (new).
@@ -255,7 +253,7 @@ module stripack
     ! Replaces arc IO1-IO2, between triangles (IO1,IO2,IN1) and (IO2,IO1,IN2), by IN1-IN2, whatever the
     ! coordinates. The lists of all four nodes must contain both triangles. The number of slots does not
     ! change.
-    ! SWAP is told neither N nor the lengths of the arrays: given a node above N, or LEND or LPTR above 6N-12,
+    ! SWAP is told neither N nor the lengths of the arrays. Given a node above N, or LEND or LPTR above 6N-12,
     ! it reads outside the arrays. It writes only to slots in which it has read one of the four nodes, and to
     ! LEND of IO1 and IO2.
     ! LP21  > 0 done; 0 IN1 and IN2 are already neighbours; -13 the lists do not contain these two triangles;
@@ -266,7 +264,7 @@ module stripack
 
     ! Tests whether a diagonal should be exchanged.
     ! For triangles (N3,N4,N1) and (N4,N3,N2): true if N2 lies strictly above the plane of N3, N4, N1, that
-    ! is, inside their circumcircle: arc N1-N2 should then replace N3-N4. Exact ties and NaN give false. The
+    ! is, inside their circumcircle. Arc N1-N2 should then replace N3-N4. Exact ties and NaN give false. The
     ! determinant is rounded as in the original.
     ! Result  true: exchange.
     logical function swptst(n1, n2, n3, n4, x, y, z)
@@ -276,9 +274,9 @@ module stripack
 
     ! Builds the Voronoi diagram of a triangulation.
     ! Voronoi vertex t is the circumcentre of triangle t: a unit vector XC, YC, ZC, with radius RC. There are
-    ! always 2N-4. If there is a boundary, NB-2 triangles of boundary nodes close the sphere on the far side;
-    ! they come first, and their centres lie more than 90 degrees from their corners.
-    ! LISTC holds vertex numbers by the slots of LIST: from LPL = LEND(k), following LPTR back to LPL,
+    ! always 2N-4. If there is a boundary, NB-2 triangles of boundary nodes close the sphere on the far side.
+    ! They come first, and their centres lie more than 90 degrees from their corners.
+    ! LISTC holds vertex numbers by the slots of LIST. From LPL = LEND(k), following LPTR back to LPL,
     ! LISTC(LP) are the vertices of the cell of node k, counterclockwise. The slot of b in the list of a holds
     ! the triangle left of the arc from a to b.
     ! With a boundary LPTR and LNEW change to describe the Voronoi diagram and no longer fit LIST: keep copies
@@ -300,15 +298,15 @@ module stripack
     end subroutine
 
     ! Prints the number of Voronoi cells by their number of edges.
-    ! On standard output: faces, vertices, edges, the Euler defect F+V-E-2, and the numbers of cells with 1 to
-    ! 19, and 20 or more, edges. Pass the arguments as CRLIST returns them.
+    ! Prints on standard output faces, vertices, edges, the Euler defect F+V-E-2, and the numbers of cells
+    ! with 1 to 19, and 20 or more, edges. Pass the arguments as CRLIST returns them.
     subroutine voronoi_poly_count(n, lend, lptr, listc)
       integer :: n, lend(n), lptr(*), listc(*)
     end subroutine
 
     ! Prints the adjacency lists.
-    ! For each node its number, coordinates as IFLAG says, and neighbours, counterclockwise, followed by 0 for
-    ! a boundary node. Then the numbers of boundary nodes, arcs and triangles. Pages have 58 lines.
+    ! Prints for each node its number, coordinates as IFLAG says, and neighbours, counterclockwise, followed
+    ! by 0 for a boundary node. Then the numbers of boundary nodes, arcs and triangles. Pages have 58 lines.
     subroutine trprnt(n, x, y, z, iflag, list, lptr, lend, lout)
       integer :: n, iflag, list(*), lptr(*), lend(n)
       real(STRIPACK_REAL_KIND) :: x(*), y(*), z(*)
@@ -316,8 +314,8 @@ module stripack
     end subroutine
 
     ! Prints the triangles.
-    ! Nodes and coordinates as IFLAG says; the triangles of TRLIST: corners, neighbours and, with NROW = 9,
-    ! arcs; the numbers of boundary nodes, arcs and triangles. Pages have 58 lines.
+    ! Prints nodes and coordinates as IFLAG says; the triangles of TRLIST: corners, neighbours and, with NROW
+    ! = 9, arcs; the numbers of boundary nodes, arcs and triangles. Pages have 58 lines.
     subroutine trlprt(n, x, y, z, iflag, nrow, nt, ltri, lout)
       integer :: n, iflag, nrow, nt, ltri(nrow, *)
       real(STRIPACK_REAL_KIND) :: x(*), y(*), z(*)
@@ -371,15 +369,15 @@ module stripack
     end subroutine
 
     ! Area of a spherical triangle.
-    ! The sum of the angles minus pi, 0..2*pi. Vectors may have any length but 0 and either orientation; null
-    ! triangles have area 0.
+    ! Returns the sum of the angles minus pi, 0..2*pi. Vectors may have any length but 0 and either
+    ! orientation; null triangles have area 0.
     ! Result  area, steradians.
     function areas(v1, v2, v3)
       real(STRIPACK_REAL_KIND) :: v1(3), v2(3), v3(3), areas
     end function
 
     ! Areas of listed triangles.
-    ! AREAS of each triangle; NaN where a corner is outside 1..N.
+    ! Computes AREAS of each triangle; NaN where a corner is outside 1..N.
     subroutine triareas(n, x, y, z, nt, triangles, triarea)
       integer :: n, nt, triangles(3, *)
       real(STRIPACK_REAL_KIND) :: x(n), y(n), z(n), triarea(*)
@@ -387,7 +385,7 @@ module stripack
 
     ! Tests on which side of a great circle a point lies.
     ! True if point 0 lies left of, or on, the great circle from point 1 to point 2, seen from outside the
-    ! sphere: their determinant, rounded in the original's order, is >= 0. NaN gives false.
+    ! sphere. Their determinant, rounded in the original's order, is >= 0. NaN gives false.
     ! Result  true: left or on.
     logical function left(x1, y1, z1, x2, y2, z2, x0, y0, z0)
       real(STRIPACK_REAL_KIND) :: x1, y1, z1, x2, y2, z2, x0, y0, z0
@@ -407,10 +405,10 @@ module stripack
     end function
 
     ! Intersects an arc with a great circle.
-    ! The great circle through P1 and P2 meets the one with normal CN in two points; P is the one on the side
+    ! The great circle through P1 and P2 meets the one with normal CN in two points. P is the one on the side
     ! of the arc, not necessarily between P1 and P2.
-    ! IER  0 done; 1 P1 and P2 have the same distance from the plane of the circle: P1 = P2, CN = 0, or no
-    !      point is the nearest; 2 P1 and P2 are antipodes; -5 an argument is not finite (new).
+    ! IER  0 done; 1 P1 and P2 have the same distance from the plane of the circle: P1 = P2, CN = 0, or
+    !      several points are equally near; 2 P1 and P2 are antipodes; -5 an argument is not finite (new).
     subroutine intrsc(p1, p2, cn, p, ier)
       integer :: ier
       real(STRIPACK_REAL_KIND) :: p1(3), p2(3), cn(3), p(3)

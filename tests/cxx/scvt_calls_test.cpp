@@ -330,7 +330,7 @@ TEST(Scvt, ErrorsOfARunSayWhyAndWriteNothing) {
   points[20] = points[30];
   refuses(Generators(points), PSTRIPACK_COINCIDENT, "generators 21 and 31 coincide", nullptr, given);
   points[20] = {1, NAN, 0};
-  refuses(Generators(points), PSTRIPACK_BAD_COORDINATE, "generator 21 has no direction", nullptr, given);
+  refuses(Generators(points), PSTRIPACK_BAD_COORDINATE, "generator 21 is zero or not finite", nullptr, given);
   points[20] = points[21];
   for (Point& p : points) p.z = std::fabs(p.z);
   points[20].x += 0.1;
@@ -532,7 +532,7 @@ TEST(ScvtStep, ErrorsSayWhyAndWriteNothing) {
   refuses(step, PSTRIPACK_BAD_LISTS, "the lists have 587 neighbours, a triangulation of the sphere has 588");
   step = good;
   step.generators.y[7] = INFINITY;
-  refuses(step, PSTRIPACK_BAD_COORDINATE, "generator 8 has no direction");
+  refuses(step, PSTRIPACK_BAD_COORDINATE, "generator 8 is zero or not finite");
   step = good;  // of other generators
   for (std::size_t i = 0; i < 100; ++i) step.generators.x[i] = -step.generators.x[i];
   refuses(step, PSTRIPACK_BAD_LISTS, "is clockwise");

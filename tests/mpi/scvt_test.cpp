@@ -291,7 +291,7 @@ TEST(DistributedScvt, BadGeneratorsAreToldOnEveryRank) {
     nodes[20] = scaled(2, nodes[70]);
     refuses(nodes, PSTRIPACK_COINCIDENT, "generators 21 and 71 coincide");
     nodes[20] = {1, kNan, 0};
-    refuses(nodes, PSTRIPACK_BAD_COORDINATE, "generator 21 has no direction");
+    refuses(nodes, PSTRIPACK_BAD_COORDINATE, "generator 21 is zero or not finite");
     nodes = good;
     for (auto& p : nodes) p.z = std::fabs(p.z);
     refuses(nodes, PSTRIPACK_HEMISPHERE, "one hemisphere");

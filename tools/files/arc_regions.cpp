@@ -133,7 +133,7 @@ class PtsFile {
                                       [&](const std::string& name) { return lower(name) == lower(key); });
       if (known == kKeys.end()) fail(where, "unknown key '{}'{}", excerpt(key), did_you_mean(key, kKeys));
       if (!values_.emplace(*known, Value{std::string(trimmed(line.substr(colon + 1))), where}).second)
-        fail(where, "{} a second time", *known);
+        fail(where, "{} occurs twice: remove one", *known);
     }
   }
 
@@ -158,7 +158,7 @@ class PtsFile {
       if (corners_.size() < 3) fail(where, "custom needs three corners or more: lines of `lat, lon`");
       for (std::size_t i = 0; i < corners_.size(); ++i)
         if (dot(corners_[i], corners_[(i + 1) % corners_.size()]) < -1 + 1e-12)
-          fail(where, "no one arc joins corner {} to the next, which is opposite: add one", i + 1);
+          fail(where, "corner {} is opposite the next one: add a corner between them", i + 1);
       region = region_of_arcs(corners_, place("Point", value("Point")));
     } else if (type == "circle" || type == "ellipse") {
       const LonLat centre({place("Point", value("Point"))}, true);

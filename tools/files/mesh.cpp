@@ -63,7 +63,7 @@ struct Step {
 
 /// The neighbours of a node in the order of its list. [begin, end): its steps, sorted.
 std::vector<std::int32_t> ring_of(std::int32_t node, const Step* begin, const Step* end) {
-  const auto fail = [&](const char* what) { throw NoMesh(fmt::format("node {}: {}", node, what)); };
+  const auto fail = [&](const std::string& what) { throw NoMesh(fmt::format("node {}: {}", node, what)); };
   if (begin == end) fail("is the corner of no triangle");
   std::vector<std::int32_t> reached;
   for (const Step* s = begin; s != end; ++s) reached.push_back(s->to);
@@ -71,7 +71,8 @@ std::vector<std::int32_t> ring_of(std::int32_t node, const Step* begin, const St
   const Step* step = begin;
   std::size_t fans = 0, length = reached.size();
   for (const Step* s = begin; s != end; ++s) {
-    if (s + 1 != end && s->from == s[1].from) fail("an arc has two triangles on one side");
+    if (s + 1 != end && s->from == s[1].from)
+      fail(fmt::format("two triangles on one side of the arc to node {}", s->from));
     if (!std::binary_search(reached.begin(), reached.end(), s->from)) step = s, ++fans, ++length;
   }
   if (fans > 1) fail("its triangles are not one fan");
@@ -107,7 +108,8 @@ Mesh triangulate(std::vector<Point> points) {
   if (result.ier > 0)
     throw CoincidentNodes(static_cast<std::size_t>(result.node) - 1,
                           static_cast<std::size_t>(result.other) - 1);
-  if (result.ier < 0) throw NoMesh(fmt::format("the triangulation failed with code {}", result.ier));
+  if (result.ier < 0)
+    throw NoMesh(fmt::format("the triangulation failed with code {}", result.ier));
   return mesh;
 }
 

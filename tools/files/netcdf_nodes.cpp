@@ -240,7 +240,7 @@ std::vector<double> read_angles(const File& file, const Variable& v, bool are_la
     file.fail("variable {} holds {}: give the longitudes first, --columns LON,LAT", excerpt(v.path),
               are_latitudes ? "longitudes" : "latitudes");
   if (const std::vector<int> dimensions = v.dimensions_of_places(); dimensions.size() > 2)
-    file.fail("variable {}: expected one place per node; take one time out, say by ncks -d {},0",
+    file.fail("variable {}: expected one place per node; extract one time, say by ncks -d {},0",
               file.shape(v.path, dimensions), file.dimension_name(dimensions[0]));
   are_degrees = in_degrees(file, v, angles, are_latitudes);
   if (v.type == NC_FLOAT && !are_degrees && !file.is_packed(v))
@@ -402,7 +402,8 @@ void read_faces(const File& file, Nodes& nodes, const Variable& mesh) {
     for (std::size_t k = 0; k < corners.columns; ++k)
       if (const long long corner = corners.all[begin + k]; corner != kNoCorner) triangles.push_back(corner);
     const std::size_t count = triangles.size() - before;
-    if (count < 3) file.fail("variable {}, face {}: {} corners", excerpt(v.path), faces + 1, count);
+    if (count < 3)
+      file.fail("variable {}, face {}: {} corners, expected 3 or more", excerpt(v.path), faces + 1, count);
     if (count > 3) ++nodes.polygons;
     if (count > 3) triangles.resize(before);
   }
@@ -485,7 +486,7 @@ Places read_chosen(const File& file, Names& names) {
             file.shape(v.path, nodes),
             !has_all       ? ""
             : cuts.empty() ? "; exchange the dimensions, by ncpdq -a " + order
-                           : "; take one layer out, say by ncks" + cuts);
+                           : "; extract one layer, say by ncks" + cuts);
 }
 
 /// The values of the variable `name`, or of the only one if `name` is empty.

@@ -302,7 +302,7 @@ void read_off(Nodes& nodes, std::string text, const ReadOptions& options) {
     std::size_t count = 0;
     in >> count;
     for (std::size_t k = 0; k < 3; ++k) in >> corners[3 * f + k];
-    if (!in || count != 3) fail(nodes.file, "face {}: expected 3 and three corners", f + 1);
+    if (!in || count != 3) fail(nodes.file, "face {}: expected a triangle, 3 A B C", f + 1);
   }
   set_triangles(nodes, corners, 0);
 }

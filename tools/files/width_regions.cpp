@@ -27,7 +27,7 @@ std::vector<Shape> shapes_of(const std::string& file) {
   for (Shape& shape : shapes)
     for (std::vector<Line>& rings : shape.parts)
       for (Line& ring : rings) {
-        if (ring.size() < 4) fail(shape.where, "a ring with fewer than four corners");
+        if (ring.size() < 4) fail(shape.where, "a ring needs three corners and the first again");
         for (std::size_t i = 1; i < ring.size(); ++i) {
           const double lon = ring[i].first, before = ring[i - 1].first;
           if (std::fabs(lon - before) > 180 && std::fabs(lon - before) < 360)

@@ -134,7 +134,7 @@ void write_lists(OutputFile& file, const Mesh& mesh) {
 void write_fesom(OutputFile& file, const Mesh& mesh) {
   const std::string nodes = "nod2d.out";
   if (!file.has_a_name() || !ends_with("/" + file.name(), nodes))
-    refuse(file, Format::fesom, "has files called nod2d.out and elem2d.out: -o nod2d.out");
+    refuse(file, Format::fesom, "has files called nod2d.out and elem2d.out: say -o nod2d.out");
   const LonLat angles = angles_of(mesh.points, mesh.given, true);
   file.print("{}\n", mesh.points.size());
   for (std::size_t i = 0; i < mesh.points.size(); ++i)

@@ -147,7 +147,7 @@ void interpolate(InterpolateOptions& options) {
   const bool has_values = !options.output.empty(), has_weights = !options.weights.empty();
   if (!has_values && !has_weights) throw CLI::RequiredError("--output or --weights");
   if (has_weights && options.input.duplicates == Duplicates::mean)
-    throw CLI::ValidationError("--weights", "need one node for each place: say --duplicates first");
+    throw CLI::ValidationError("--weights", "need one node for each place: say --duplicates=first");
   const To to = has_values ? format_of(options) : To::netcdf;
   options.input.read.may_have_value = true;
   options.input.read.with_values = has_values || !options.input.read.variable.empty();

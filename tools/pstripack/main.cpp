@@ -90,7 +90,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.fallthrough();
   app.add_flag("-q,--quiet", global().quiet, "print only errors on stderr");
-  option(app, "--threads NUMBER", global().threads, "number of threads [all processors]")
+  option(app, "--threads NUMBER", global().threads, "number of threads [the free processors]")
       ->check(CLI::Range(1, 4096).description(""));
   add_serial(app);
   Command chosen;

@@ -189,8 +189,8 @@ CLI::Option* add_limited_area(CLI::App& app, std::string& text, std::string& sid
              "of GeoJSON polygons or of MPAS-Limited-Area, NAME.pts, and 7 layers of cells around "
              "it, with their bdyMaskCell");
   option(app, "--sides WORD", sides,
-         "sides of the region: map (straight in longitude and latitude) or great-circle, followed as "
-         "MPAS-Limited-Area does; always so of NAME.pts [map]")
+         "sides of the region: map (straight in longitude and latitude) or great-circle, as in "
+         "MPAS-Limited-Area: always for NAME.pts [map]")
       ->check(one_of({"map", "great-circle"}))
       ->needs(region);
   return region;
@@ -274,8 +274,7 @@ void Output::choose(std::optional<files::Format> otherwise) {
   if (variant.clockwise && format != files::Format::geojson)
     throw CLI::ValidationError("--rings", "only GeoJSON has rings: --to geojson");
   if (variant.edges && format != files::Format::ugrid)
-    throw CLI::ValidationError("--edges",
-                               "only UGRID meshes have edges, as MPAS meshes always do: --to ugrid");
+    throw CLI::ValidationError("--edges", "it is for UGRID (MPAS meshes always have edges): --to ugrid");
 }
 
 Nodes read_places(const std::string& file, const files::ReadOptions& options) {
@@ -375,7 +374,7 @@ void drop_duplicates(Nodes& nodes, const Input& input) {
   const bool means = input.duplicates == Duplicates::mean;
   if (!input.drops())
     throw std::runtime_error(fmt::format(
-        "{}: {} and {} are within {} of each other: remove one, or say --duplicates first", nodes.file,
+        "{}: {} and {} are within {} of each other: remove one, or say --duplicates=first", nodes.file,
         nodes.place(duplicates[0].first), nodes.place(duplicates[0].node), within.text));
   if (means) {
     take_means(nodes.value, duplicates);
@@ -422,7 +421,7 @@ void add_history(files::Notes& notes) {
 std::runtime_error no_mesh_of(const Nodes& nodes, const files::NoMesh& why) {
   if (const auto* const coincident = dynamic_cast<const files::CoincidentNodes*>(&why))
     return std::runtime_error(
-        fmt::format("{}: {} and {} are in the same place: remove one, or say --duplicates first", nodes.file,
+        fmt::format("{}: {} and {} are in the same place: remove one, or say --duplicates=first", nodes.file,
                     nodes.place(coincident->first), nodes.place(coincident->second)));
   return std::runtime_error(nodes.file + ": " + why.what());
 }

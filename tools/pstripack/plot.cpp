@@ -96,7 +96,7 @@ void expect_column(const files::Nodes& nodes, const std::string& name) {
   if (files::find(nodes.columns, name) != nullptr) return;
   std::vector<std::string> names{"none", "area", "degree", "owner:P"};
   for (const files::Column& column : nodes.columns) names.push_back(column.name);
-  throw std::runtime_error(fmt::format("{}: --colour {}: no column has this name{} (here are {})", nodes.file,
+  throw std::runtime_error(fmt::format("{}: --colour {}: no column has this name{} (expected {})", nodes.file,
                                        name, files::did_you_mean(name, names), files::listed(names)));
 }
 

@@ -770,7 +770,7 @@ void add_scvt(CLI::App& app, Command& chosen) {
   option(*sub, "--width-file FILE", options->width_file,
          "widths in km, bilinear on a longitude-latitude grid (NetCDF): cellWidth(lat, lon)");
   option(*sub, "--width-region FILE", options->width_region,
-         "GeoJSON polygons with properties width and transition, km, within --width elsewhere")
+         "GeoJSON polygons with properties width and transition, km; elsewhere --width holds")
       ->needs("--width");
   option(*sub, "--width-distance FILE:NEAR:FAR:KM", options->width_distance,
          "widths of NEAR km at the lines or polygons of a GeoJSON file, growing to FAR at KM km from them")

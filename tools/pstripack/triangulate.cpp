@@ -127,7 +127,7 @@ void add_voronoi(CLI::App& app, Command& chosen) {
   CLI::App* const sub = app.get_subcommand("voronoi");
   option(*sub, "--clip-to BOX", options->clip_to,
          "cut the cells at WEST,EAST,SOUTH,NORTH, where 170,-170 crosses the dateline, or at the "
-         "polygons of a GeoJSON file");
+         "polygons of a GeoJSON file or of NAME.pts");
   sub->add_flag("--clip-to-hull", options->clip_to_hull, "cut the cells at the convex hull of the nodes");
 }
 

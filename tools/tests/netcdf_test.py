@@ -220,7 +220,7 @@ def test_faces_of_more_than_three_corners_are_told(tmp_path):
     (PLACES + 'double a(n); a:units="degrees_east"; double b(n); b:units="degrees_north";', PLACES_DATA + "a=1,2,3; b=4,5,6;",
      ["--columns", "b,a"], "variable b holds latitudes: give the longitudes first, --columns LON,LAT"),
     ("double XLONG(time,n,time), XLAT(time,n,time);", f"XLONG={'0,' * 11}0; XLAT={'0,' * 11}0;", [],
-     "variable XLONG(time=2, n=3, time=2): expected one place per node; take one time out, say by ncks -d time,0"),
+     "variable XLONG(time=2, n=3, time=2): expected one place per node; extract one time, say by ncks -d time,0"),
     # Layers and times.
     (PLACES + "float pr(n, time);", PLACES_DATA, ["--columns", "lon,lat,pr"], "ncks -d time,0"),
     (PLACES + "float pr(time, n);", PLACES_DATA, ["--columns", "lon,lat,pr"], "ncks -d time,0"),
@@ -290,7 +290,7 @@ def test_a_pair_of_usual_names_may_be_that_of_another_grid(tmp_path):
     ("t", "\n180 0 3 3 130\n0 30 4 4 140\n90 30 2 nan nan\n"), ("packed", "\n180 30 130 6 nan\n"),
     ("turned", "expected turned(lat=2, lon=3); exchange the dimensions, by ncpdq -a lat,lon"),
     ("elsewhere", "expected elsewhere(lat=2, lon=3)\n"),
-    ("deep", "expected deep(lat=2, lon=3); take one layer out, say by ncks -d layers,0"),
+    ("deep", "expected deep(lat=2, lon=3); extract one layer, say by ncks -d layers,0"),
     ("none", "variables with one value per node: t, packed"), ("", "say --variable NAME; variables with one value per node: t")])
 def test_values_have_the_dimensions_of_the_nodes(tmp_path, variable, words):
     file = made(tmp_path, """dimensions: time=1; lat=2; lon=3; other=3; layers=2; variables: double lon(lon);

@@ -166,7 +166,7 @@ def test_command_lines_that_are_refused():
             "voronoi octahedron.txt -o a.b.gpkg": "a.b.gpkg: write GeoJSON and convert it: ogr2ogr a.b.gpkg a.b.geojson",
             "triangulate octahedron.txt --radius 6371229 -o mesh.off": "--radius: only MPAS meshes have a radius",
             "triangulate octahedron.txt --radius=-1 -o a.mpas.nc": "--radius: '-1' is not a number of metres above 0",
-            "convert octahedron.txt --edges -o mesh.off": "--edges: only UGRID meshes have edges",
+            "convert octahedron.txt --edges -o mesh.off": "--edges: it is for UGRID",
             "triangulate octahedron.txt -o mesh.off --to ugird":
                 "--to: 'ugird' is none of ugrid, mpas, scrip, esmf, vtu, off, gmsh, fesom, lists, gmt, geojson, csv, xyz, "
                 "lonlat, nodes, raw; did you mean ugrid?",
@@ -254,7 +254,7 @@ def test_formats_that_other_programs_convert(file, begin, words):
 def test_duplicates():
     write("twice.txt", OCTAHEDRON + OCTAHEDRON)
     refuses(1, "triangulate twice.txt -o twice.off", "twice.txt: node 1 (line 1) and node 7 (line 7) are in the same place: "
-            "remove one, or say --duplicates first")
+            "remove one, or say --duplicates=first")
     messages("triangulate twice.txt --duplicates first -o dropped.off", "6 nodes dropped")
     assert read("dropped.off") == output("triangulate octahedron.txt -o - --to off")
     info = output("info twice.txt")
@@ -299,7 +299,7 @@ def test_near_nodes():
     mean = output("convert near.csv --units degrees --duplicates mean --duplicates-within 2km -o - --to csv")
     assert mean.splitlines()[1] == "0,0,4"
     refuses(1, "triangulate near.csv --units degrees --duplicates-within 1mm -o failed.off", "near.csv: node 1 (line 2) and "
-            "node 7 (line 8) are within 1mm of each other: remove one, or say --duplicates first")
+            "node 7 (line 8) are within 1mm of each other: remove one, or say --duplicates=first")
     for within in "1", "1foot", "-1mm", "90deg":
         refuses(2, f"triangulate near.csv --duplicates-within={within} -o a.off", f"--duplicates-within: '{within}': expected")
 
@@ -397,7 +397,7 @@ def test_tables():
           '2020-01-04,40,30,5,"again"\r\n2020-01-05,50.1,20.3,1,e\r\n')
     for options in "", "--duplicates error":
         refuses(1, f"triangulate quakes.csv {options} -o mesh.vtu", "node 2 (line 3) and node 4 (line 5) are in the same "
-                "place: remove one, or say --duplicates first")
+                "place: remove one, or say --duplicates=first")
     for rule, value in ("first", "3"), ("mean", "4"):
         messages(f"triangulate quakes.csv --duplicates {rule} -o mesh.vtu",
                  "quakes.csv: 1 node dropped that coincides with earlier ones")
@@ -655,7 +655,7 @@ def test_pictures_that_are_refused():
             (2, "-o c.svg --colour owner:0", "owner:0: expected owner:P or owner:P:stripes for 1 to 4096 ranks"),
             (2, "-o c.svg --colour owner:4:boxes", "--colour: owner:4:boxes: expected"),
             (2, "-o c.svg --colour degree", "degree is a property of nodes: say --what cells"),
-            (1, "-o c.svg --colour aera", "nodes.txt: --colour aera: no column has this name; did you mean area? (here are "
+            (1, "-o c.svg --colour aera", "nodes.txt: --colour aera: no column has this name; did you mean area? (expected "
              "none, area, degree, owner:P, node, line)"),
             (1, "-o c.svg --coast-file no.shp", "no.shp: cannot be opened: No such file"),
             (1, "-o c.svg --coast-file nodes.txt", "nodes.txt: not a shapefile (.shp) of lines or polygons"),
@@ -745,7 +745,7 @@ def test_values_and_grids_that_are_refused():
             (2, "a.txt --to-points a.txt --registration node -o b.txt", "--to-points excludes --registration"),
             (1, "octahedron.txt --grid-step 30 -o b.txt", "may be degrees or radians"),
             (1, "two.txt --grid-step 30 -o b.txt", "two.txt: has 2 columns: say --coordinates lonlat or xyz"),
-            (1, "twice.txt --grid-step 30 -o b.txt", "are in the same place: remove one, or say --duplicates first"),
+            (1, "twice.txt --grid-step 30 -o b.txt", "are in the same place: remove one, or say --duplicates=first"),
             (1, "cap.txt --to-points no.txt -o b.txt", "no.txt: cannot be opened")):
         refuses(code, "interpolate " + arguments, words)
 
@@ -1123,11 +1123,11 @@ def test_limited_areas_that_are_refused():
             ("Type: square\n", "area.pts:1: Type 'square': expected circle, ellipse, channel or custom"),
             ("# a\nType: circle\nPoint: 91, 10\nradius: 5\n", "area.pts:3: Point: '91, 10': expected `latitude, longitude` in degrees"),
             ("Type: circle\nPoint: 1, 10\nradius: wide\n", "area.pts:3: radius: 'wide': expected a number from 1 to 2.0015"),
-            ("Type: circle\nType: circle\n", "area.pts:2: Type a second time"),
+            ("Type: circle\nType: circle\n", "area.pts:2: Type occurs twice: remove one"),
             ("Type: circle\nPoint: 1, 10\nradius: 1e6\n1, 2\n", "area.pts:1: the Type 'circle' has no corners: only custom has"),
             ("Type: channel\nLower-lat: 20\nUpper-lat: 10\n", "area.pts:2: Lower-lat: '20': expected a number from -90 to 10"),
             (custom + "1, 2\n3, 4\n", "area.pts:1: custom needs three corners or more: lines of `lat, lon`"),
-            (custom + "0, 0\n0, 180\n50, 50\n", "area.pts:1: no one arc joins corner 1 to the next, which is opposite: add one"),
+            (custom + "0, 0\n0, 180\n50, 50\n", "area.pts:1: corner 1 is opposite the next one: add a corner between them"),
             (custom + "0 0\n", "area.pts:3: a corner: '0 0': expected `latitude, longitude` in degrees")):
         write("area.pts", text)
         refuses(1, "convert sphere.nc --region area.pts -o failed.nc", words)

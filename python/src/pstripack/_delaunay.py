@@ -99,7 +99,7 @@ class Delaunay(Places, Measures, Presentation):
         degrees : bool
             False: the angles are radians, unless ``units`` is given.
         units : {"degrees", "radians"}, optional
-            The units. Default: degrees, and a ValueError if no longitude is beyond 2 pi and no latitude beyond pi/2, since
+            The units. Default: degrees, and a ValueError if all longitudes are within 2 pi and all latitudes within pi/2, since
             these may be radians.
         threshold, duplicates, threads
             As in :class:`Delaunay`.
@@ -187,7 +187,7 @@ class Delaunay(Places, Measures, Presentation):
 
     @classmethod
     def from_xarray(cls, dataset: Any, *, threads: Optional[int] = None) -> "Delaunay":
-        """The triangulation of which :meth:`to_xarray` has made a Dataset: the same bits, and the same ``labels``.
+        """The triangulation from which :meth:`to_xarray` made a Dataset, with the same bits and ``labels``.
 
         Parameters
         ----------

@@ -128,7 +128,7 @@ class Measures(Values):
         neighbours and of their neighbours, weighted by one over the squared distance (Renka, ACM TOMS 10, 1984,
         section 3). The result is the gradient of this function, or of a linear one where the nodes do not determine a
         quadratic one. Where the nodes lie on a curve, such as a section or a track, to 3e-5 of their distances, the result
-        is the slope along the curve: the part across the curve is 0. The method "cubic" of :meth:`interpolate` uses these
+        is the slope along the curve. The part across the curve is 0. The method "cubic" of :meth:`interpolate` uses these
         gradients. The error is of the second order in the distances between nodes, on the boundary of the first order.
 
         Examples

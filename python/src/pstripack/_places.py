@@ -53,8 +53,8 @@ class Places(Values):
 
         Notes
         -----
-        A place outside the triangles counts as on their border if a small step brings it inside: a step towards the middle
-        of the nodes, of 1e-12 of the way and 4e-16 radians.
+        A place outside the triangles counts as on their border if a small step brings it inside: 1e-12 of the way to the
+        middle of the nodes, plus 4e-16 radians.
 
         Examples
         --------

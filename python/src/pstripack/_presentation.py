@@ -51,7 +51,7 @@ class Presentation(Values):
         -------
         xarray.Dataset
             Indices count from 0 (``start_index``); -1 (``_FillValue``) fills the rows of cells with fewer corners. The
-            vectors to the nodes and their labels are coordinates, of which :meth:`Delaunay.from_xarray` makes the same
+            vectors to the nodes and their labels are coordinates, from which :meth:`Delaunay.from_xarray` makes the same
             mesh.
 
         Raises
@@ -93,9 +93,9 @@ class Presentation(Values):
         Returns
         -------
         geopandas.GeoDataFrame
-            Polygons are counterclockwise, cut at the dateline, closed along a pole inside them, and within 0.001 degrees of
+            Polygons are counterclockwise, cut at the dateline, extended to a pole inside them, and within 0.001 degrees of
             the arcs: 110 m on the Earth. The column ``area_km2`` is the exact area of the cell or triangle on a sphere of
-            radius 6371 km, or of its part inside ``clip``; this part is right to 0.01 % of the area of ``clip``. A
+            radius 6371 km, or of its part inside ``clip``. This part is right to 0.01 % of the area of ``clip``. A
             cell outside ``clip`` has the area 0 and no geometry. The index of cells is ``labels``. If the nodes lie in a
             hemisphere, the cells of boundary nodes share the rest of the sphere.
 

@@ -1,7 +1,8 @@
 /* PSTRIPACK: exact Delaunay triangulation of nodes on the sphere. C API of libpstripack.
  *
- * Every function may be called from any number of threads at once; none is collective, none writes to
- * stdout or ends the program. Arrays belong to the caller. Node numbers count from 1, as in STRIPACK.
+ * Every function may be called from any number of threads at once; none is collective, except trmesh in
+ * comm mode (pstripack_mpi.h); none writes to stdout or ends the program. Arrays belong to the caller. Node
+ * numbers count from 1, as in STRIPACK.
  *
  * Environment variables, read when the library is loaded:
  *   PSTRIPACK_REPORT=1           a line on stderr for each triangulation, and a table at exit
@@ -89,11 +90,11 @@ PSTRIPACK_API int32_t pstripack_trmesh_r4(int32_t n, const float* x, const float
 PSTRIPACK_API int64_t pstripack_trmesh_i8(int64_t n, const double* x, const double* y, const double* z,
                                           int64_t* list, int64_t* lptr, int64_t* lend, int64_t* lnew);
 
-/* The Delaunay triangulation of the directions of n nodes, as canonical lists: arguments and result as of
- * pstripack_trmesh, which takes coordinates as given where all lengths are 1 up to 1e-6. The two differ only
- * where nodes are so close, or so nearly on one circle, that the rounding of lengths matters. Always by the
- * threads of this process, never by ranks; PSTRIPACK_ORDER does not matter. For quantities that are computed
- * from a mesh this is the mesh to use. */
+/* The Delaunay triangulation of the directions of n nodes, as canonical lists. Arguments and result are those
+ * of pstripack_trmesh, which takes coordinates as given where all lengths are 1 up to 1e-6. The two differ
+ * only where nodes are so close, or so nearly on one circle, that the rounding of lengths matters. This uses
+ * the threads of this process, never ranks; PSTRIPACK_ORDER does not matter. For quantities that are
+ * computed from a mesh this is the mesh to use. */
 PSTRIPACK_API int32_t pstripack_delaunay(int32_t n, const double* x, const double* y, const double* z,
                                          int32_t* list, int32_t* lptr, int32_t* lend, int32_t* lnew);
 
@@ -205,8 +206,8 @@ PSTRIPACK_API int32_t pstripack_scvt(int32_t n, double* x, double* y, double* z,
                                      pstripack_scvt_result* result, char* message, int32_t length);
 
 /* How many cells have these widths: the integral of 1/(sqrt(3)/2 width^2) over a sphere of this radius, in
- * the unit of the widths. To about 1e-5 of itself, 1e-4 where widths jump; features narrower than half a
- * degree may be missed. So many generators, with options.widths = 1, have these widths.
+ * the unit of the widths. It is right to about 1e-5 of itself, 1e-4 where widths jump; features narrower
+ * than half a degree may be missed. That number of generators, with options.widths = 1, has these widths.
  *   width   as a density; NULL: 1 everywhere
  *   cells   out: one value
  * Returns 0, -6, -11 or -14. */

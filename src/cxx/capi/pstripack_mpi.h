@@ -68,7 +68,7 @@ PSTRIPACK_API void pstripack_mesh_free(pstripack_mesh* mesh);
  * result does not depend on the distribution of the points, nor on the number of ranks or threads. Returns
  * 0, -1 (fewer than three points in all), -2 (all on one great circle), -4 (n too large), -5, -6, -9, -10 or
  * -100 (n < 0). After an error the mesh is empty. If there are several errors, the code is the first of -100
- * and -4, -1, -10 (below 1), -5, -10 (twice), -2, -9; -6 may occur at any time. */
+ * or -4, -1, -10 (below 1), -5, -10 (twice), -2, -9; -6 may occur at any time. */
 PSTRIPACK_API int32_t pstripack_mesh_triangulate(pstripack_mesh* mesh, int64_t n, const double* xyz,
                                                  const int64_t* number);
 
@@ -80,8 +80,8 @@ PSTRIPACK_API void pstripack_mesh_error_points(const pstripack_mesh* mesh, int64
 /* Sets rank[i], i = 0..n-1, to the rank (from 0) that should own the point xyz[3i..3i+2], so that each
  * rank's points lie close together and all ranks have about the same number. The partition is that of the
  * last pstripack_mesh_triangulate. Points that have been moved to these ranks keep them in later calls,
- * until some rank has an eighth more points than the average. Not collective. Returns 0, or -3 (empty
- * mesh), -5 or -100 (n < 0), having written nothing. */
+ * until a rank has an eighth more points than when the patches were cut. Not collective. Returns 0, or -3
+ * (empty mesh), -5 or -100 (n < 0), having written nothing. */
 PSTRIPACK_API int32_t pstripack_mesh_home(const pstripack_mesh* mesh, int64_t n, const double* xyz,
                                           int32_t* rank);
 
@@ -123,7 +123,7 @@ PSTRIPACK_API int32_t pstripack_mesh_local_stars(const pstripack_mesh* mesh, int
  *                values(width, points))
  *   width        number of values a point, at least 1, the same on every rank
  *   halo_values  out: width * halo values, in the order of pstripack_mesh_halo
- * Since the triangulation every rank knows what travels: nothing is agreed on but width. Returns 0, -3 (empty
+ * Since the triangulation every rank knows what travels: only width is agreed on. Returns 0, -3 (empty
  * mesh), -6, -7 (another width on some rank), -8 or -100 (width < 1 on some rank). After an error nothing is
  * written. */
 PSTRIPACK_API int32_t pstripack_mesh_exchange(pstripack_mesh* mesh, const void* values, int64_t width,
@@ -159,7 +159,7 @@ PSTRIPACK_API int32_t pstripack_mesh_gather(pstripack_mesh* mesh, int32_t root, 
  *                     length; on return xyz holds the generators found, unit vectors
  *   density           the same on every rank; called for places near the rank's generators
  *   options           those of rank 0 are used on all ranks, except `start` and `seed`, which have no
- *                     effect; NULL on other ranks. Rank 0 calls `progress`
+ *                     effect; those of other ranks are ignored. Rank 0 calls `progress`
  *   result            may be NULL; the same on every rank, except `generators`, which is n
  *   message, length   as in pstripack_scvt
  * Points that are close together should be on one rank (pstripack_mesh_home). Afterwards the mesh is that

@@ -33,7 +33,7 @@ void DistributedEvaluator::triangulate_mesh(const std::vector<Point>& generators
     case PSTRIPACK_COLLINEAR:
       throw GeneratorsInHemisphere();
     case PSTRIPACK_BAD_COORDINATE:
-      throw BadGenerators("generator " + std::to_string(mesh_.error_point(0)) + " has no direction");
+      throw BadGenerators("generator " + std::to_string(mesh_.error_point(0)) + " is zero or not finite");
     case PSTRIPACK_COINCIDENT:
       throw CoincidentGenerators(mesh_.error_point(0), mesh_.error_point(1));
     case PSTRIPACK_BAD_NUMBER:

@@ -120,7 +120,8 @@ std::string path_of_worker() {
   if (path.empty())
     fail("/proc/self/exe cannot be read, so pstripack-worker cannot be found: mount /proc", 127);
   path = path.substr(0, path.rfind('/') + 1) + "pstripack-worker";
-  if (access(path.c_str(), X_OK) != 0) fail(path + ": " + std::strerror(errno), 127);
+  if (access(path.c_str(), X_OK) != 0)
+    fail(path + ": " + std::strerror(errno) + ": it must be beside pstripack-run", 127);
   return path;
 }
 
@@ -140,7 +141,8 @@ bool is_open_mpi(const std::string& mpirun) {
   const int status = pclose(version);
   if (status != 0) {  // the child has said why
     const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    fail(mpirun + " --version: exit code " + std::to_string(code), code);
+    fail(mpirun + " --version: exit code " + std::to_string(code) + ": name another in PSTRIPACK_MPIRUN",
+         code);
   }
   return text.find("Open MPI") != std::string::npos || text.find("OpenRTE") != std::string::npos;
 }
@@ -284,7 +286,8 @@ int main(int, char** argv) {
   close(ends[1]);
   waitpid(process, nullptr, 0);
   int code = 1;
-  if (read(ends[0], &code, sizeof code) != sizeof code) fail("the ranks could not be started", 1);
+  if (read(ends[0], &code, sizeof code) != sizeof code)
+    fail("the ranks could not be started: does mpirun work by itself?", 1);
   if (code != kBegin) return code;
   run(arguments.program);
 }

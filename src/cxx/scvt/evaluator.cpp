@@ -55,7 +55,7 @@ NeighbourLists triangulate(const std::vector<Point>& generators, std::vector<std
   }
   if (result.ier > 0) throw CoincidentGenerators(result.node, result.other);
   if (result.ier == PSTRIPACK_BAD_COORDINATE)
-    throw BadGenerators("generator " + std::to_string(result.node) + " has no direction");
+    throw BadGenerators("generator " + std::to_string(result.node) + " is zero or not finite");
   const auto ends_at_boundary = [&](std::int32_t slot) {
     return list[static_cast<std::size_t>(slot) - 1] < 0;
   };

@@ -125,7 +125,7 @@ Point unit_vector(const Point& g) {
 std::vector<Point> unit_vectors(std::vector<Point> generators) {
   for (std::size_t i = 0; i < generators.size(); ++i) {
     if (!has_direction(generators[i]))
-      throw BadGenerators("generator " + std::to_string(i + 1) + " has no direction");
+      throw BadGenerators("generator " + std::to_string(i + 1) + " is zero or not finite");
     generators[i] = scvt::unit_vector(generators[i]);
   }
   return generators;

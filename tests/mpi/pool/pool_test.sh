@@ -413,7 +413,7 @@ EOF
   printf '#!/bin/sh\necho cannot >&2; exit 3\n' > mpirun
   PSTRIPACK_MPIRUN=./mpirun "$RUN" -n 2 true 2> mpirun.err
   [ $? -eq 3 ] || fail "an mpirun that fails: exit code"
-  printf 'cannot\npstripack-run: ./mpirun --version: exit code 3\n' | cmp - mpirun.err || fail "an mpirun that fails: message"
+  printf 'cannot\npstripack-run: ./mpirun --version: exit code 3: name another in PSTRIPACK_MPIRUN\n' | cmp - mpirun.err || fail "an mpirun that fails: message"
   if unshare --mount mount -t tmpfs none /proc; then
     unshare --mount sh -c 'mount -t tmpfs none /proc && exec "$RUN" -n 2 true' 2> proc.err && fail "no /proc"
     grep -q 'mount /proc' proc.err || fail "no /proc: message"
