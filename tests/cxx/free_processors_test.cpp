@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/parallel_for.h"
+#include "base/system.h"
 #include "support/this_program.h"
 
 namespace pstripack {
@@ -80,6 +81,11 @@ TEST(FreeProcessors, LauncherTellsTheRanksOfAMachine) {
 /// Files as the kernel has them, below a folder.
 class FreeProcessorsOfFiles : public ::testing::Test {
  protected:
+  void SetUp() override {
+#ifndef PSTRIPACK_LINUX
+    GTEST_SKIP() << "only Linux has these files";
+#endif
+  }
   void write(const std::string& path, const std::string& text) const {
     const std::filesystem::path file = root() + path;
     std::filesystem::create_directories(file.parent_path());
