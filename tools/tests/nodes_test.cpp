@@ -376,7 +376,7 @@ TEST(off, triangles_are_turned_counterclockwise) {
   EXPECT_EQ(read_bytes(text, options).triangles, (pstripack::Triangles{{0, 1, 2}}));
   expect_error("OFF\n3 1 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 3\n", "triangle 1: there is no node 3", options);
   expect_error("OFF\n3 1 0\n1 0 0\n0 1 0\n-1 0 0\n3 0 1 2\n", "on one great circle", options);
-  expect_error("OFF\n3 1 0\n1 0 0\n0 1 0\n0 0 1\n4 0 1 2 0\n", "face 1: expected 3", options);
+  expect_error("OFF\n3 1 0\n1 0 0\n0 1 0\n0 0 1\n4 0 1 2 0\n", "face 1: expected a triangle, 3 A B C", options);
   expect_error("OFF\n4 1 0\n1 0 0\n0 1 0\n0 0 1\n", "node 4: expected x y z");
 }
 
