@@ -7,7 +7,6 @@
 #   posix   without anything that only Linux and its linkers have (PSTRIPACK_ONLY_POSIX): all tests
 #   musl    the libraries' sources are compiled, not linked, with musl and libc++ instead of glibc and libstdc++; and then as
 #           on macOS, where int64_t is long long, without anything that only Linux has
-# Exit status 77: a package is missing.
 set -eu
 case=$1 source=$2 work=$3
 consumer=$source/tests/install/consumer
@@ -15,9 +14,7 @@ rm -rf "$work"
 mkdir -p "$work"
 jobs=$(nproc)
 fail() { echo "systems.sh $case: $*" >&2; exit 1; }
-needs() {  # needs FILE|COMMAND PACKAGE
-  [ -e "$1" ] || command -v "$1" > /dev/null || { echo "$1 not found. Debian: apt-get install $2" >&2; exit 77; }
-}
+install() { sh "$source/cmake/install-packages.sh" main "$@"; }
 build() {  # build FOLDER OPTION...: of the project
   folder=$1
   shift
@@ -31,8 +28,7 @@ only_libraries="-DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 -DPSTRIPACK
 # shellcheck disable=SC2046,SC2086  # lists of words on purpose
 case $case in
   old)
-    needs g++-11 g++-11
-    needs make make
+    install g++-11 make
     mkdir "$work/a folder"
     (cd "$source" && tar -c --exclude='./build*' --exclude=./.git .) | tar -x -C "$work/a folder"
     sums() { (cd "$work/a folder" && find . -type f -exec sha256sum {} + | sort); }
@@ -95,10 +91,9 @@ END
     ctest --test-dir "$work/build" --parallel "$((2 * jobs))" --output-on-failure -E '^packages|^privileges_test' ;;
 
   musl)
-    needs /usr/include/x86_64-linux-musl musl-dev
+    install musl-dev libc++-dev
     clang=$(clang++ -print-resource-dir)
     libcxx=$(dirname "$(dirname "$(dirname "$clang")")")/include/c++/v1
-    needs "$libcxx" libc++-dev
     mkdir "$work/boost"
     ln -s /usr/include/boost "$work/boost/boost"
     cmake -S "$source" -B "$work/build" $only_libraries -DPSTRIPACK_TOOLS=OFF -DPSTRIPACK_WITH_FORTRAN=OFF > "$work/log"
