@@ -675,6 +675,24 @@ TEST(Filter, GivesUpWhereOneComponentIsLargeAndRoundingDecides) {
   }
 }
 
+/// Coplanar, since three lie on one line; seen from the first, one is far away along an axis, and only
+/// products with that component make the bound of double-double arithmetic larger than its rounding.
+TEST(Filter, GivesUpWhereOneDifferenceIsLargeAndDoubleDoubleRounds) {
+  Random random(24);
+  double Point::*const axis[] = {&Point::x, &Point::y, &Point::z};
+  const auto any = [&random](double most) {
+    const auto whole = [&] { return std::floor(random.uniform(-most, most)); };
+    return Point{whole(), whole(), whole()};
+  };
+  for (int i = 0; i < cases(3000); ++i) {
+    const Point a = any(0x1p20), f = any(0x1p50);
+    Point p[] = {plus(a, 1, f), plus(a, 3, f), plus(a, 1, any(0x1p30))};
+    p[2].*axis[i % 3] += std::floor(random.uniform(0x1p51, 0x1p52));
+    std::swap(p[2], p[i / 3 % 3]);
+    ASSERT_EQ(pstripack::orientation(a, p[0], p[1], p[2]), 0) << text({a, p[0], p[1], p[2]});
+  }
+}
+
 /// Four nodes near the equator and four near a circle of latitude, off by t and by about t^2, for t down to
 /// the least double: volumes down to 1e-647.
 TEST(VanishingVolumes, AreToldFromZero) {
