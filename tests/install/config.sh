@@ -27,7 +27,7 @@ run() {
     *mpi*) "$mpiexec" -n 2 "$work/program" | grep -qx 'mpi: 2 ranks, 24 slots' || fail "$abi $kind: ranks" ;;
     *) "$work/program" | grep -qE '^(legacy: 8 triangles|c_api: .* 24 slots|version .*)$' || fail "$abi $kind: wrong mesh" ;;
   esac
-  needs=$(ldd "$work/program" | grep -c stripack || true)
+  needs=$(ldd "$work/program" | grep -cE '^[[:blank:]]*lib[a-z]*stripack' || true)
   case $kind:$needs in
     shared:0) fail "$abi: the program needs no shared library of ours" ;;
     --static:[1-9]*) fail "$abi --static: the program needs a shared library of ours" ;;
