@@ -43,7 +43,7 @@ for part; do
       run_labels 'fortran|abi|api'
       link_from_others ;;
     routines)
-      build tests/differential/all tests/numerics/all listing_test lout_test_stripack_r4 lout_test_stripack_i8 plot_test
+      build tests/differential/all tests/numerics/all listing_test lout_test_stripack lout_test_stripack_r4 lout_test_stripack_i8 plot_test
       run_labels 'differential|listing|plot|numerics' ;;
     tools) build all ;;
     *) echo "llvm.sh: no part is called $part" >&2; exit 2 ;;
