@@ -278,7 +278,8 @@ IER_MIDDLE = """**L > 0 of TRMESH**: drop one of the two nodes. Often every colu
 meridian stands at 0 and at 360 degrees.
 
 **Distributed meshes.** Every rank gets the same code; after `triangulate` and `scvt` the mesh is then empty. Rank 0
-prints the line; `home`, `exchange_end`, and calls where MPI must not be called print on their rank. `mesh%error_points` returns the points of -5, -9, -10 and -13.
+prints the line; `home`, `exchange_end`, and calls where MPI must not be called print on their rank.
+`mesh%error_points` returns the points of -5, -9, -10 and -13.
 
 **Centroidal tessellations** return [a message](../scvt-interface.md#errors) and print nothing.
 

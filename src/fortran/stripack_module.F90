@@ -385,7 +385,8 @@ module stripack
 
     ! Tests on which side of a great circle a point lies.
     ! True if point 0 lies left of, or on, the great circle from point 1 to point 2, seen from outside the
-    ! sphere. Their determinant, rounded in the original's order, is >= 0. NaN gives false.
+    ! sphere. The determinant of the three points, rounded in the original's order, is then >= 0. NaN gives
+    ! false.
     ! Result  true: left or on.
     logical function left(x1, y1, z1, x2, y2, z2, x0, y0, z0)
       real(STRIPACK_REAL_KIND) :: x1, y1, z1, x2, y2, z2, x0, y0, z0

@@ -108,8 +108,7 @@ Mesh triangulate(std::vector<Point> points) {
   if (result.ier > 0)
     throw CoincidentNodes(static_cast<std::size_t>(result.node) - 1,
                           static_cast<std::size_t>(result.other) - 1);
-  if (result.ier < 0)
-    throw NoMesh(fmt::format("the triangulation failed with code {}", result.ier));
+  if (result.ier < 0) throw NoMesh(fmt::format("the triangulation failed with code {}", result.ier));
   return mesh;
 }
 

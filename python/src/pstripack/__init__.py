@@ -1,8 +1,8 @@
 """Exact Delaunay triangulations and Voronoi diagrams on the sphere, on threads.
 
 Nodes, triangles and vertices count from 0, also in messages. Functions release Python's lock, and several threads may
-call them at the same time. ``threads`` is the number of threads that one call uses; None: OMP_NUM_THREADS, or the free processors.
-Any number of threads gives the same bytes.
+call them at the same time. ``threads`` is the number of threads that one call uses; None: OMP_NUM_THREADS, or the
+free processors. Any number of threads gives the same bytes.
 
 Examples
 --------

@@ -99,8 +99,8 @@ class Delaunay(Places, Measures, Presentation):
         degrees : bool
             False: the angles are radians, unless ``units`` is given.
         units : {"degrees", "radians"}, optional
-            The units. Default: degrees, and a ValueError if all longitudes are within 2 pi and all latitudes within pi/2, since
-            these may be radians.
+            The units. Default: degrees, and a ValueError if all longitudes are within 2 pi and all latitudes within pi/2,
+            since these may be radians.
         threshold, duplicates, threads
             As in :class:`Delaunay`.
 

@@ -138,7 +138,8 @@ void list_triangles(ListingForm form, Int n, Int iflag, const Nodes<Real>& nodes
   const Layout layout = layout_of(form);
   out.empty(3).skip(18).add("PSTRIPACK: triangles as of TRLIST,  N = ").integer(n, 4).end();
   if (n < 3 || n > most_listed || (nrow != 6 && nrow != 9) || nt < 1 || nt > most_listed) {
-    out.empty(2).skip(11).add("N must be 3 to 9999, NT 1 to 9999, NROW 6 or 9:  N =");
+    out.empty(2).skip(11).add("N must be 3 to ").integer(most_listed, 4);
+    out.add(", NT 1 to ").integer(most_listed, 4).add(", NROW 6 or 9:  N =");
     out.integer(n, 5).add(", NROW =").integer(nrow, 5).add(", NT =").integer(nt, 5).end();
     return;
   }
