@@ -314,6 +314,21 @@ TEST(MovingStars, GoTheColdWayWhereTheMeshDoesNotFit) {
                 });
 }
 
+/// Nodes of rank 1 move on among nodes of rank 0, until more have been their neighbours than rank 1 has room
+/// for. A cap that stays gives rank 1 room for longer rings.
+TEST(MovingStars, GoTheColdWayWhereThereIsNoRoomForNodesOutside) {
+  constexpr std::size_t n = 6000, cap = 800, apart = 30;
+  const Nodes nodes = make("fibonacci", n, 1);
+  std::vector<int> owner(n, 0);
+  for (std::size_t k = 0; k < n; ++k) owner[k] = k < cap || k % apart == 0;
+  const auto sets = sets_of(nodes, 80, [&](Nodes& p, int) {
+    for (std::size_t k = apart; k < n; k += apart)
+      p[k] = point_sets::normalized(plus(p[k], scaled(0.1 * spacing(n), cross({0, 0, 1}, p[k]))));
+  });
+  const Tally tally = follow(sets, 2, owner);
+  EXPECT_EQ(tally.refused, 1);
+}
+
 /// Such a mesh has as many arcs as one of the whole sphere.
 TEST(MovingStars, GoTheColdWayWhereThreeNodesAreTheBoundary) {
   Random random(11);

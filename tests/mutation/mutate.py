@@ -38,7 +38,7 @@ SUBJECTS = {
     "src/cxx/geometry/exact_signs.h": ("constexpr int kSmallBits", "}  // namespace pstripack::exact", [QUICK, LONGER]),
     "src/cxx/geometry/predicates.h": ("inline bool length_is_one", "/// Counts in this thread since", [QUICK, KERNEL]),
     "src/cxx/mesh/flips.cpp": ("struct Spokes {", "}  // namespace pstripack", [FLIPS]),
-    "src/cxx/trmesh/warm_start.cpp": ("constexpr std::size_t kLast", "}  // namespace pstripack", [WARM, MEMORY]),
+    "src/cxx/trmesh/warm_start.cpp": ("SampleOfStars sample_of(", "}  // namespace pstripack", [WARM, MEMORY]),
     "src/cxx/parallel/moving_stars.cpp": ("bool MovingStars::propose(", "MeshNode MovingStars::find(", [STARS]),
     "src/cxx/mesh/validate.cpp": ("Verdict defect(", "const char* name(", [VALIDATOR, LISTS]),
     "src/cxx/lists/adjacency_lists.cpp": ("Verdict malformed(", "}  // namespace pstripack", [VALIDATOR, LISTS]),
@@ -155,15 +155,22 @@ class Mutation:
         return "survived"
 
 
+def lines_of(name):
+    """The lines of a file, and of those to mutate the first and the one after the last."""
+    first, last, _ = SUBJECTS[name]
+    lines = (SOURCE / name).read_text().split("\n")
+    begin = next((k for k, line in enumerate(lines) if first in line), len(lines))
+    end = next((k for k, line in enumerate(lines) if k > begin and last in line), None)
+    return (lines, begin, end) if end else sys.exit(f"{name}: no line with {first}, or none with {last} after it")
+
+
 def main():
+    subjects = {name: lines_of(name) for name in SUBJECTS}
     mutation, poor = Mutation(pathlib.Path(sys.argv[1]).resolve()), []
-    for name, (first, last, stages) in SUBJECTS.items():
+    for name, (lines, begin, end) in subjects.items():
         if len(sys.argv) > 2 and sys.argv[2] not in name:
             continue
-        copy = mutation.tree / name
-        lines = copy.read_text().split("\n")
-        begin = next(k for k, line in enumerate(lines) if first in line)
-        end = next(k for k, line in enumerate(lines) if k > begin and last in line)
+        copy, stages = mutation.tree / name, SUBJECTS[name][2]
         seconds = [mutation.seconds(stage) for stage in stages]
         original = {} if name.endswith("predicates.h") else mutation.objects()  # inlined elsewhere
         count = {"caught": 0, "survived": 0}
