@@ -14,6 +14,7 @@
 #include "support/cases.h"
 #include "support/guarded.h"
 #include "support/judge.h"
+#include "support/moves.h"
 #include "support/trmesh.h"
 #include "trmesh/trmesh.h"
 
@@ -353,7 +354,9 @@ TEST(Validator, FindsADentInTheBoundary) {
       if (rings->boundary[c] || rings->neighbours[a][0] != b || !rings->boundary[a]) continue;
       Faces dented = faces;
       dented.erase(dented.begin() + static_cast<std::ptrdiff_t>(i));
-      EXPECT_EQ(judge(nodes, dented).defect, Defect::not_convex);
+      const Verdict v = judge(nodes, dented);
+      EXPECT_EQ(v.defect, Defect::not_convex);
+      EXPECT_EQ(v.node, (std::array<std::int32_t, 4>{c, b, a, -1}));
       ++dents;
     }
   }
@@ -414,7 +417,7 @@ TEST(Validator, JudgesOtherLengthsOnDirections) {
   Nodes nodes = make("random", 40, 5);
   Random random(1);
   for (auto& p : nodes) {
-    const double s = random.uniform(0.9, 1.1);
+    const double s = random.uniform(0.99, 1.01);
     p = scaled(s, p);
   }
   const Faces faces = brute_force(nodes, On::directions);
@@ -422,6 +425,24 @@ TEST(Validator, JudgesOtherLengthsOnDirections) {
   EXPECT_TRUE(v) << v.message;
   EXPECT_EQ(v.lengths, Lengths::directions);
   EXPECT_FALSE(judge(nodes, faces, Lengths::as_given));
+  const Faces hull = brute_force(nodes, On::coordinates);
+  EXPECT_TRUE(judge(nodes, hull, Lengths::as_given));
+  EXPECT_FALSE(judge(nodes, hull));
+}
+
+/// The corners of a cube, rotated: cocircular except for roundings, and the predicates decide differently.
+TEST(Validator, JudgesUnitLengthsAsTheyAre) {
+  int different = 0;
+  for (int k = 1; k <= 10; ++k) {
+    Nodes nodes = cube();
+    rotate(nodes, {0.6, 0, 0.8}, 0.1 * k);
+    const Faces faces = brute_force(nodes, On::coordinates);
+    const Verdict v = judge(nodes, faces);
+    EXPECT_TRUE(v) << v.message;
+    EXPECT_EQ(v.lengths, Lengths::as_given);
+    different += !judge(nodes, faces, Lengths::directions);
+  }
+  EXPECT_GT(different, 0);
 }
 
 TEST(Validator, AcceptsHiddenNodesOnDirections) {
@@ -514,6 +535,22 @@ TEST(Validator, TellsWhatIsWrongWithLists) {
                    l.lnew = 0;
                  }),
             "8 node 9: slots in use are not 1..LNEW-1");
+  // The last slot moves one further, so that there is a gap before it.
+  EXPECT_EQ(told(open,
+                 [](Lists& l) {
+                   const auto from = static_cast<std::size_t>(l.lnew - 2), to = from + 1;
+                   l.list[to] = l.list[from];
+                   l.lptr[to] = l.lptr[from];
+                   l.lptr[from - 1] = l.lend.back() = l.lnew;
+                   l.lnew = 0;
+                 }),
+            "8 node 9: slots in use are not 1..LNEW-1");
+  // A seventh node has a list, and is in no other.
+  Rings and_one = *rings_of(6, brute_force(octahedron, On::coordinates));
+  and_one.neighbours.push_back({0, 1, 2});
+  and_one.boundary.push_back(0);
+  EXPECT_EQ(told(canonical_lists(and_one), [](Lists&) {}),
+            "6 node 7: neighbours 1, 2 make no triangle in the list of the first");
 }
 
 TEST(Validator, AcceptsAndDoubtsNodesOfManyNeighbours) {

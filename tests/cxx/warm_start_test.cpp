@@ -295,14 +295,16 @@ TEST(WarmStart, IsInvisibleWhereNGoesUpAndDownByMuch) {
 
 TEST(WarmStart, KeepsSeveralMeshes) {
   Random random(8);
-  std::vector<Nodes> sets,
-      current{nodes_of("random", kN), nodes_of("fibonacci", kN), nodes_of("random", 1500)};
-  for (int step = 0; step < 8; ++step)
+  std::vector<Nodes> sets, current{nodes_of("random", kN), nodes_of("fibonacci", kN),
+                                   nodes_of("random", 1500), nodes_of("fibonacci", 1500)};
+  for (int step = 0; step < 8; ++step) {
     for (Nodes& nodes : current) {
       move_all(nodes, 1e-4 * spacing(kN), random);
       sets.push_back(nodes);
     }
-  EXPECT_EQ(compare(sets).warm, 3 * 6);
+    std::rotate(current.begin(), current.begin() + 1, current.end());
+  }
+  EXPECT_EQ(compare(sets).warm, 4 * 6);
 }
 
 TEST(WarmStart, IsInvisibleForOtherNodesOfTheSameNumber) {
@@ -573,7 +575,8 @@ TEST(WarmStart, WaitsOneCallMoreAfterAMeshThatDidNotFit) {
   free_cached_things();
 }
 
-/// A mesh that never fits, though the sample does, is tried again after 2, 4, ... 64, 64 calls.
+/// A mesh that never fits, though the sample does, is tried again after 2, 4, ... 64, 64 calls; one of other
+/// nodes of the same number waits as long.
 TEST(WarmStart, IsTriedAgainAfterAtMost64Calls) {
   const Nodes nodes = nodes_of("random", 1000);
   const Result lists = cold_call(nodes);
@@ -591,6 +594,9 @@ TEST(WarmStart, IsTriedAgainAfterAtMost64Calls) {
     start.remember(arrays);
   }
   EXPECT_EQ(tries, (std::vector<int>{2, 2, 4, 8, 16, 32, 64, 64, 64}));
+  // Other nodes, as many: their mesh is kept after 64 calls in which the sample fitted.
+  const Nodes next = make("random", 1000, 9);
+  for (int i = 0; i < 66; ++i) EXPECT_EQ(call(next).is_warm, i == 65) << i;
   free_cached_things();
 }
 

@@ -138,8 +138,9 @@ class Mutation:
 
     def seconds(self, stage):
         """Builds and runs a stage without a mutant; the processor time to allow for it."""
+        is_built = self.makes(stage[0])
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        if not self.makes(stage[0]) or not self.passes(stage, 3600):
+        if not is_built or not self.passes(stage, 3600):
             sys.exit(f"{stage[0]} fails without a mutant")
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         return int(20 * (after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)) + 5
