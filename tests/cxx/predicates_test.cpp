@@ -887,9 +887,44 @@ TEST(Directions, AreExactWhereDoubleDoubleHasToDecide) {
   std::uint64_t sets = 0;
   const auto counts = decide_hard_cases(3, sets);
   EXPECT_GT(counts.double_double, sets);  // else this tests nothing
+  EXPECT_LT(counts.integers, sets / 100);
   if (sets > 5000) {
     EXPECT_GT(counts.integers, 0u);  // rare
   }
+}
+
+/// How small the nodes and their distances are does not matter to the filter.
+TEST(Directions, AreMostlyDecidedInDoublesAtEveryScale) {
+  Random random(34);
+  const auto scale = [&] { return std::pow(10, -150 * random.uniform()); };
+  constexpr int sets = 2000;
+  for (const bool have_one_scale : {true, false}) {
+    pstripack::take_predicate_counts();
+    for (int i = 0; i < sets; ++i) {
+      const double common = scale();
+      Four f;
+      for (Point& p : f) {
+        const double s = (have_one_scale ? common : scale()) * random.uniform(0.1, 1),
+                     angle = 360 * random.uniform();
+        p = {1, s * point_sets::cos_degrees(angle), s * point_sets::sin_degrees(angle)};
+      }
+      pstripack::orientation_of_directions(f[0], f[1], f[2], f[3]);
+    }
+    EXPECT_LE(pstripack::take_predicate_counts().double_double, sets / 100u);
+  }
+}
+
+/// Where two nodes are close to each other, one of them is the apex.
+TEST(Directions, AreMostlyDecidedInDoublesForClosePairs) {
+  Random random(35);
+  constexpr int sets = 2000;
+  pstripack::take_predicate_counts();
+  for (int i = 0; i < sets; ++i) {
+    const auto close = [&] { return Point{3, 1e-20 * random.uniform(), 1e-20 * random.uniform()}; };
+    const Four f = {random.direction(), random.direction(), close(), close()};
+    pstripack::orientation_of_directions(f[0], f[1], f[2], f[3]);
+  }
+  EXPECT_LE(pstripack::take_predicate_counts().double_double, sets / 100u);
 }
 
 TEST(Directions, AreExactWhereTheLengthsOfUnitVectorsDecide) {
