@@ -512,7 +512,8 @@ TEST(AnyFiniteDouble, LeftOfSumAndIsNearerAreExact) {
     const Point q = random.direction();
     a = plus({0, 0, 0}, 0.5, q);
     b = nudged(plus(plus({0, 0, 0}, -1, a), 2 * (a.x * p.x + a.y * p.y + a.z * p.z), p), random, 2);
-    length(a), length(b), length(p);  // a and its mirror image at p are as near to p
+    if (i % 2 == 0) b = random.direction();  // else a's mirror image at p, as near to p up to rounding
+    length(a), length(b), length(p);
     const Vector vp(p), va(a), vb(b);
     const Exact to_a = va.dot(vp), to_b = vb.dot(vp),
                 nearer = to_a * abs(to_a) * vb.dot(vb) - to_b * abs(to_b) * va.dot(va);
@@ -931,6 +932,14 @@ TEST(Directions, AreExactWhereTheLengthsOfUnitVectorsDecide) {
   std::uint64_t sets = 0;
   const auto counts = decide_hard_cases(1, sets);
   EXPECT_LT(counts.double_double, sets - sets / 4);
+}
+
+/// Two nodes are opposite to each other, the two others nearly: doubles with 53 bits, and a determinant of 1.
+TEST(Directions, AreExactForNodesNearlyOppositeToEachOther) {
+  const double f78 = 8944394323791464, f77 = 5527939700884757, f76 = 3416454622906707;  // Fibonacci's numbers
+  const Four f = {{{f78, f77, 0}, {0, 0, 1}, {-f77, -f76, 0}, {0, 0, -1}}};
+  ASSERT_NE(exact::orientation(exact::On::directions, f[0], f[1], f[2], f[3]), 0);
+  expect_directions_exact(f);
 }
 
 TEST(Directions, AreExactForTies) {
