@@ -521,6 +521,13 @@ TEST(AnyFiniteDouble, LeftOfSumAndIsNearerAreExact) {
   }
 }
 
+/// The number of bits is that of the node with the most.
+TEST(IsNearer, LooksAtComponentsOfAllSizes) {
+  const Point p = {1, 0, 0}, a = {0.8, 0.6, 1e-300}, b = {std::nextafter(0.8, 0.0), -0.6, 1e-300};
+  EXPECT_TRUE(pstripack::is_nearer(p, a, b));
+  EXPECT_FALSE(pstripack::is_nearer(p, b, a));
+}
+
 TEST(SameDirection, LooksAtEveryComponent) {
   std::vector<Point> vectors;
   for (const double x : {-2., -1., 0., 1., 2.})
@@ -864,6 +871,8 @@ TEST(Directions, AreExactAtEveryScale) {
     const Four f = nested(random);
     if (!different(f)) continue;
     ASSERT_NO_FATAL_FAILURE(expect_directions_exact(f));
+    ASSERT_EQ(pstripack::above_of_directions(f[0], f[1], f[2], f[3]),
+              Directions(f.data(), 4).above(0, 1, 2, 3));
   }
 }
 
