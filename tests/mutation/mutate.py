@@ -37,7 +37,7 @@ SUBJECTS = {
     "src/cxx/geometry/directions.cpp": ("double largest(", "}  // namespace pstripack", [QUICK, LONGER, KERNEL]),
     "src/cxx/geometry/exact_signs.h": ("constexpr int kSmallBits", "}  // namespace pstripack::exact", [QUICK, LONGER]),
     "src/cxx/geometry/predicates.h": ("inline bool length_is_one", "/// Counts in this thread since", [QUICK, KERNEL]),
-    "src/cxx/mesh/flips.cpp": ("struct Spokes {", "}  // namespace pstripack", [FLIPS]),
+    "src/cxx/mesh/flips.cpp": ("struct Spokes {", "}  // namespace pstripack", [FLIPS, WARM, STARS]),
     "src/cxx/trmesh/warm_start.cpp": ("SampleOfStars sample_of(", "}  // namespace pstripack", [WARM, MEMORY]),
     "src/cxx/parallel/moving_stars.cpp": ("bool MovingStars::propose(", "MeshNode MovingStars::find(", [STARS]),
     "src/cxx/mesh/validate.cpp": ("Verdict defect(", "const char* name(", [VALIDATOR, LISTS]),
