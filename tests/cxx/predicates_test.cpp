@@ -941,7 +941,7 @@ TEST(Directions, AreMostlyDecidedInDoublesForClosePairs) {
 TEST(Directions, AreExactWhereTheLengthsOfUnitVectorsDecide) {
   std::uint64_t sets = 0;
   const auto counts = decide_hard_cases(1, sets);
-  EXPECT_LT(counts.double_double, sets - sets / 4);
+  EXPECT_LT(counts.double_double, sets - sets / 5);
 }
 
 /// Two nodes are opposite to each other, the two others nearly: doubles with 53 bits, and a determinant of 1.
