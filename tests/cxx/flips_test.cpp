@@ -28,17 +28,18 @@ struct Outcome {
 
 /// Moves the nodes repeatedly by `move(step)`. If the mesh cannot follow, a new one is made.
 template <class Move>
-Outcome follow(Nodes& nodes, int steps, const Move& move) {
+Outcome follow(Nodes& nodes, int steps, const Move& move, Confirm confirm = Confirm::nothing) {
+  const Lengths lengths = confirm == Confirm::directions ? Lengths::directions : Lengths::automatic;
   Outcome outcome;
   std::unique_ptr<Follower> follower;
-  if (const auto lists = made_anew(nodes)) follower = std::make_unique<Follower>(nodes, *lists);
+  if (const auto lists = made_anew(nodes, lengths)) follower = std::make_unique<Follower>(nodes, *lists);
   for (int step = 0; step < steps; ++step) {
     move(step);
-    const auto right = made_anew(nodes);
+    const auto right = made_anew(nodes, lengths);
     std::optional<Lists> found;
     if (follower) {
       const std::size_t before = follower->flips;
-      found = follower->follow(nodes);
+      found = follower->follow(nodes, confirm);
       outcome.flips += follower->flips - before;
       ++(found ? outcome.followed : outcome.refused);
     }
@@ -147,22 +148,33 @@ TEST(Flips, FollowTiesThatAppearAndVanish) {
 }
 
 /// Stars much smaller than the sphere are first tested in floating point. Each square of this lattice is a
-/// tie except for the rounding of its nodes, which changes with every step.
+/// tie except for the rounding of its nodes, which changes with every step. For directions the nodes also
+/// move by so much that heights as small as the rounding of lengths change their signs.
 TEST(Flips, FollowSmallLattices) {
   constexpr int kSide = 16;
-  Outcome all;
-  for (const double h : {0x1p-9, 0x1p-20}) {
-    Nodes nodes = make("random", 30, 1);
-    for (int i = 0; i < kSide; ++i)
-      for (int j = 0; j < kSide; ++j) nodes.push_back(point_sets::normalized({h * i, h * j, 1}));
-    const Outcome outcome = follow(nodes, cases(60), [&](int step) {
-      rotate(nodes, {0.6, 0, 0.8}, step % 3 == 0 ? 0.3 : 1e-15);
-      for (Point& p : nodes) p = point_sets::normalized(p);
-    });
-    all.followed += outcome.followed, all.flips += outcome.flips;
+  Random random(10);
+  for (const Confirm confirm : {Confirm::nothing, Confirm::directions}) {
+    Outcome all;
+    for (const double h : {0x1p-9, 0x1p-13, 0x1p-20}) {
+      Nodes nodes = make("random", 30, 1);
+      for (int i = 0; i < kSide; ++i)
+        for (int j = 0; j < kSide; ++j) nodes.push_back(point_sets::normalized({h * i, h * j, 1}));
+      const Outcome outcome = follow(
+          nodes, cases(60),
+          [&](int step) {
+            rotate(nodes, {0.6, 0, 0.8}, step % 3 == 0 ? 0.3 : 1e-15);
+            move_all(nodes, confirm == Confirm::directions ? 0x1p-53 / h : 0, random);
+          },
+          confirm);
+      all.followed += outcome.followed, all.refused += outcome.refused, all.flips += outcome.flips;
+    }
+    EXPECT_GT(all.followed, cases(60));
+    if (confirm == Confirm::nothing) {
+      EXPECT_GT(all.flips, static_cast<std::size_t>(cases(300)));
+    } else {
+      EXPECT_GE(all.refused, cases(60));
+    }
   }
-  EXPECT_GT(all.followed, cases(60));
-  EXPECT_GT(all.flips, static_cast<std::size_t>(cases(300)));
 }
 
 /// Nodes exactly in one plane, x + y + z constant: determinants are zero up to rounding. The nodes are much
