@@ -810,7 +810,10 @@ TEST(Directions, PositionsAndDifferencesAreAsAccurateAsPromised) {
     }
     const Point p = on.position(0), d = on.difference(0, 1);
     const double position[3] = {p.x, p.y, p.z}, difference[3] = {d.x, d.y, d.z};
+    const auto [high, low] = pstripack::unit_vector(f[0]);
+    const Wide both[3] = {Wide(high.x) + low.x, Wide(high.y) + low.y, Wide(high.z) + low.z};
     for (int j = 0; j < 3; ++j) {
+      ASSERT_LE(abs(both[j] - unit[0][j]), abs(unit[0][j]) * 0x1p-100 + Wide(0x1p-1070)) << text(f);
       ASSERT_LE(abs(Wide(position[j]) - unit[0][j]), Wide(0x1p-53)) << text(f);
       const Wide true_difference = unit[0][j] - unit[1][j];
       ASSERT_LE(abs(Wide(difference[j]) - true_difference),
