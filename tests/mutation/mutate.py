@@ -10,7 +10,7 @@ and not counted, if the compiler makes the same code of it.
 
 Prints the survivors, to be read: those that matter need a test. Most change no result: a filter with a larger bound, an
 arc judged from its other end, too, a read ahead, more room, other threads. Fails if more than a quarter of the mutants
-of a file survive. Takes about an hour of one processor.
+of a file survive. Takes some three hours of one processor.
 """
 
 import pathlib
