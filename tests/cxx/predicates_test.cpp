@@ -562,7 +562,13 @@ TEST(Above, IsFalseWhereTwoNodesCoincide) {
       if (i == j) continue;
       Four f = different_ones;
       f[i] = f[j];
-      EXPECT_FALSE(Coordinates(f.data(), 4).above(0, 1, 2, 3)) << i << j;
+      const Coordinates on(f.data(), 4);
+      EXPECT_FALSE(on.above(0, 1, 2, 3)) << i << j;
+      Coordinates::View view(on);
+      view.from(3);
+      if (i == 3 || j == 3) {
+        EXPECT_FALSE(view.above(0, 1, 2)) << i << j;
+      }
       f[i] = scaled(2, f[j]);
       EXPECT_FALSE(Directions(f.data(), 4).above(0, 1, 2, 3)) << i << j;
     }
@@ -999,6 +1005,26 @@ TEST(Coordinates, AreSeenFromANodeAsFromOutside) {
       view.from(0);
       ASSERT_EQ(view.above(1, 3, 2), on.above(1, 3, 2, 0)) << text(f);
     }
+  }
+}
+
+/// Ties of nodes in one plane of constant z, some so large or small that products overflow or underflow.
+TEST(Coordinates, DecideTiesOfAnySize) {
+  Random random(36);
+  for (int i = 0; i < cases(2000); ++i) {
+    Four f;
+    const double z = random.below(2) == 0 ? 1 : 0x1p-530;
+    const auto any = [&] {
+      static constexpr double sizes[] = {1, 1, 0x1p500, 0x1p-530, 0x1p-545};
+      return random.uniform(-1, 1) * sizes[random.below(5)];
+    };
+    for (Point& p : f) p = {any(), any(), z};
+    const Coordinates on(f.data(), 4);
+    Coordinates::View view(on);
+    view.from(3);
+    const bool above = exact::above(exact::On::coordinates, f[0], f[1], f[2], f[3]) > 0;
+    ASSERT_EQ(view.above(0, 1, 2), above) << text(f);
+    ASSERT_EQ(on.above(0, 1, 2, 3), above) << text(f);
   }
 }
 
