@@ -572,6 +572,21 @@ TEST(Validator, AcceptsAndDoubtsNodesOfManyNeighbours) {
   }
 }
 
+TEST(Validator, DoubtsAHubThatANeighbourDoesNotKnow) {
+  constexpr int n = 60, north = 0, south = 1;
+  Faces faces;
+  for (int i = 0; i < n; ++i) {
+    faces.push_back({north, 2 + i, 2 + (i + 1) % n});
+    faces.push_back({south, 2 + (i + 1) % n, 2 + i});
+  }
+  Lists lists = canonical_lists(*rings_of(n + 2, faces));
+  ASSERT_TRUE(pstripack::check_topology(view(lists)));
+  const auto list = lists.list.begin() + lists.lend[20];  // of node 22
+  *std::find(list, list + 4, north + 1) = 50;
+  EXPECT_EQ(pstripack::check_lists(view(lists)).message,
+            "node 1: neighbours 22, 23 make no triangle in the list of the first");
+}
+
 TEST(Validator, FindsADefectOfTheLastNodes) {
   Nodes nodes = make("random", 20000);  // several threads
   std::sort(nodes.begin(), nodes.end(), [](const Point& a, const Point& b) { return a.z < b.z; });
