@@ -5,7 +5,7 @@
 #
 # Builds (preset coverage: g++ -O0 --coverage) and runs a choice of tests, or those of the given ctest options, with a
 # fiftieth of the random cases. Prints the table of branches per file, and fails if a branch of the predicates, of the
-# validators or of an error path is neither taken nor excused by a comment (required.py). Some 25 minutes on two
+# validators or of an error path is neither taken nor excused in untested.txt (required.py). Some 25 minutes on two
 # processors.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)

@@ -521,7 +521,7 @@ TEST(AnyFiniteDouble, LeftOfSumAndIsNearerAreExact) {
   }
 }
 
-/// The number of bits is that of the node with the most.
+/// The integers have room for the node whose components differ most in size.
 TEST(IsNearer, LooksAtComponentsOfAllSizes) {
   const Point p = {1, 0, 0}, a = {0.8, 0.6, 2e-300}, b = {std::nextafter(0.8, 0.0), -0.6, 1e-300};
   EXPECT_TRUE(pstripack::is_nearer(p, a, b));
@@ -908,7 +908,7 @@ TEST(Directions, AreExactWhereDoubleDoubleHasToDecide) {
   std::uint64_t sets = 0;
   const auto counts = decide_hard_cases(3, sets);
   EXPECT_GT(counts.double_double, sets);  // else this tests nothing
-  EXPECT_LT(counts.integers, sets / 100);
+  EXPECT_LE(counts.integers, sets / 100);
   if (sets > 5000) {
     EXPECT_GT(counts.integers, 0u);  // rare
   }
@@ -951,7 +951,7 @@ TEST(Directions, AreMostlyDecidedInDoublesForClosePairs) {
 TEST(Directions, AreExactWhereTheLengthsOfUnitVectorsDecide) {
   std::uint64_t sets = 0;
   const auto counts = decide_hard_cases(1, sets);
-  EXPECT_LT(counts.double_double, sets - sets / 5);
+  EXPECT_LT(counts.double_double, sets - sets / (sets > 1000 ? 4 : 5));  // few sets: chance
 }
 
 /// Two nodes are opposite to each other, the two others nearly: doubles with 53 bits, and a determinant of 1.

@@ -553,15 +553,22 @@ TEST(Validator, TellsWhatIsWrongWithLists) {
             "6 node 7: neighbours 1, 2 make no triangle in the list of the first");
 }
 
+/// Both hubs have all n nodes first, first + 1, ... as neighbours, counterclockwise seen from the north.
+Faces two_hubs(int n, int first, int north, int south) {
+  Faces faces;
+  for (int i = 0; i < n; ++i) {
+    const int a = first + i, b = first + (i + 1) % n;
+    faces.push_back({north, a, b});
+    faces.push_back({south, b, a});
+  }
+  return faces;
+}
+
 TEST(Validator, AcceptsAndDoubtsNodesOfManyNeighbours) {
   constexpr int n = 60, north = n, south = n + 1;  // both have all the others, which lie on the equator
   Nodes nodes;
-  Faces faces;
-  for (int i = 0; i < n; ++i) {
-    nodes.push_back(from_degrees(360. * i / n, 0));
-    faces.push_back({north, i, (i + 1) % n});
-    faces.push_back({south, (i + 1) % n, i});
-  }
+  for (int i = 0; i < n; ++i) nodes.push_back(from_degrees(360. * i / n, 0));
+  const Faces faces = two_hubs(n, 0, north, south);
   nodes.insert(nodes.end(), {{0, 0, 1}, {0, 0, -1}});
   const Lists lists = canonical_lists(*rings_of(nodes.size(), faces));
   EXPECT_TRUE(judge(nodes, lists)) << judge(nodes, lists).message;
@@ -574,12 +581,7 @@ TEST(Validator, AcceptsAndDoubtsNodesOfManyNeighbours) {
 
 TEST(Validator, DoubtsAHubThatANeighbourDoesNotKnow) {
   constexpr int n = 60, north = 0, south = 1;
-  Faces faces;
-  for (int i = 0; i < n; ++i) {
-    faces.push_back({north, 2 + i, 2 + (i + 1) % n});
-    faces.push_back({south, 2 + (i + 1) % n, 2 + i});
-  }
-  Lists lists = canonical_lists(*rings_of(n + 2, faces));
+  Lists lists = canonical_lists(*rings_of(n + 2, two_hubs(n, 2, north, south)));
   ASSERT_TRUE(pstripack::check_topology(view(lists)));
   const auto list = lists.list.begin() + lists.lend[20];  // of node 22
   *std::find(list, list + 4, north + 1) = 50;
