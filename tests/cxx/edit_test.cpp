@@ -218,3 +218,85 @@ TYPED_TEST(Edit, ColumnsAndArcsThatAreNone) {
   EXPECT_TRUE(status == DelarcStatus::no_neighbours || status == DelarcStatus::cuts_off)
       << static_cast<int>(status);
 }
+
+TYPED_TEST(Edit, ArgumentsOutOfRangeAndTooLittleWorkSpace) {
+  using Int = typename TypeParam::Int;
+  Random random(5);
+  const MeshOf<TypeParam> good(directions(random, 12, false), 12);
+  MeshOf<TypeParam> mesh = good;
+  for (const auto& [na, most] : {std::pair<Int, Int>(-1, 3), {1, 0}, {1, -7}, {0, 3}}) {
+    Int nit = most, iwk[2] = {1, 2};
+    EXPECT_EQ(optim(mesh.nodes(), na, mesh.unbounded(), nit, iwk),
+              na == 0 ? OptimStatus::done : OptimStatus::bad_argument);
+    EXPECT_EQ(nit, 0);
+  }
+  for (const auto& [a, b] : {std::pair<Int, Int>(0, 1), {13, 1}, {1, 0}, {1, 13}, {1, 1}})
+    EXPECT_EQ(delarc(a, b, mesh.lists()), DelarcStatus::bad_argument) << a << " " << b;
+  EXPECT_EQ(delarc(Int(1), Int(2), mesh.lists(3)), DelarcStatus::bad_argument);
+  OptimFailure<Int> failure;
+  const auto delnod_of = [&](Int k, Int& lwk) {
+    return delnod(k, mesh.n, mesh.x.data(), mesh.y.data(), mesh.z.data(), mesh.lists(), lwk, mesh.iwk.data(),
+                  failure);
+  };
+  int without_work = 0;
+  for (Int k = 1; k <= good.n; ++k) {
+    Int lwk = 0;
+    const DelnodStatus status = delnod_of(k, lwk);
+    ASSERT_EQ(status, lwk > 0 ? DelnodStatus::too_few_columns : DelnodStatus::done) << k;
+    if (status == DelnodStatus::done) {
+      ++without_work;
+    } else {
+      ASSERT_TRUE(mesh == good) << k;
+      Int one_less = lwk - 1;
+      ASSERT_EQ(delnod_of(k, one_less), DelnodStatus::too_few_columns);
+      ASSERT_EQ(one_less, lwk);
+    }
+    mesh = good;
+  }
+  EXPECT_LT(without_work, 12);
+
+  // An arc that EDGE has made of another, and that one iteration swaps back: a second would have to look.
+  int swapped_back = 0;
+  for (Int a = 1; a <= good.n; ++a)
+    for (Int b = a + 1; b <= good.n; ++b) {
+      mesh = good;
+      ASSERT_EQ(mesh.connect(a, b), EdgeStatus::done);
+      Int nit = 1, iwk[2] = {a, b};
+      const OptimStatus status = optim(mesh.nodes(), Int(1), mesh.unbounded(), nit, iwk);
+      EXPECT_EQ(status, iwk[0] == a ? OptimStatus::done : OptimStatus::not_all) << a << " " << b;
+      EXPECT_EQ(nit, 1);
+      swapped_back += status == OptimStatus::not_all;
+    }
+  EXPECT_GT(swapped_back, 0);
+}
+
+/// Triangles that do not cover their hull: an arc may leave them on its way.
+TYPED_TEST(Edit, EDGEBetweenDentsAsksWhetherTheArcIsInside) {
+  using Int = typename TypeParam::Int;
+  Random random(6);
+  int done = 0, refused = 0;
+  for (int set = 0; set < 20; ++set) {
+    MeshOf<TypeParam> dented(directions(random, 12, false), 12);
+    for (Int a = 1; a <= dented.n; ++a) {
+      const Int b = -dented.list[static_cast<std::size_t>(dented.lend[static_cast<std::size_t>(a - 1)] - 1)];
+      if (b > 0) delarc(a, b, dented.lists());
+    }
+    for (Int a = 1; a <= dented.n; ++a)
+      for (Int b = 1; b <= dented.n; ++b) {
+        if (a == b) continue;
+        MeshOf<TypeParam> mesh = dented;
+        const EdgeStatus status = mesh.connect(a, b);
+        if (status == EdgeStatus::done) {
+          ++done;
+          ASSERT_EQ(mesh.fault(false), "") << "set " << set << ": " << a << " " << b;
+          continue;
+        }
+        ++refused;
+        ASSERT_TRUE(status == EdgeStatus::not_found || status == EdgeStatus::not_possible)
+            << static_cast<int>(status);
+        ASSERT_TRUE(mesh == dented) << "set " << set << ": " << a << " " << b;
+      }
+  }
+  EXPECT_GT(done, 0);
+  EXPECT_GT(refused, 0);
+}

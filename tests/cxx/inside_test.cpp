@@ -132,3 +132,17 @@ TEST(InsidePolygon, DoesNotDependOnLengths) {
         EXPECT_FALSE(is_inside({l, 2 * l, -l / 4})) << a << ' ' << b << ' ' << l;
       }
 }
+
+TYPED_TEST(Inside, INTRSCNeedsFiniteCoordinates) {
+  using Real = typename TypeParam::Real;
+  const Vector<Real> east{0, 1, 0}, up{0, 0, 1};
+  Vector<Real> point{};
+  ASSERT_EQ(intersection(Vector<Real>{1, 0, 0}, east, Vector<Real>{1, -1, 0}, point),
+            IntersectionStatus::done);
+  for (const Real bad : {std::numeric_limits<Real>::quiet_NaN(), std::numeric_limits<Real>::infinity()}) {
+    const Vector<Real> none{bad, 0, 0};
+    EXPECT_EQ(intersection(none, east, up, point), IntersectionStatus::not_finite);
+    EXPECT_EQ(intersection(east, none, up, point), IntersectionStatus::not_finite);
+    EXPECT_EQ(intersection(east, up, none, point), IntersectionStatus::not_finite);
+  }
+}

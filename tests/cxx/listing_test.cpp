@@ -2,6 +2,7 @@
 // breaks with the original.
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
@@ -265,6 +266,20 @@ TEST(Text, OfAHandleThatIsNull) {
   char record[10];
   EXPECT_EQ(pstripack_next_record(nullptr, record, sizeof record), -1);
   pstripack_free_text(nullptr);
+}
+
+/// It is read by a system call, which needs two file descriptors.
+TEST(NumberAt, IsUnknownWhereTheProcessMayOpenNoMoreFiles) {
+  const std::int32_t number = 7, other = 8;
+  const auto read = [&] { return pstripack_number_at_i4(&number, &other, &other, &other, &other, &other); };
+  EXPECT_EQ(read(), 7);
+  rlimit before;
+  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
+  const rlimit none{0, before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
+  EXPECT_EQ(read(), -1);
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
+  EXPECT_EQ(read(), 7);
 }
 
 }  // namespace

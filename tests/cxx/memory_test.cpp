@@ -1,8 +1,11 @@
 // Memory between and before calls: what a process keeps, gives back, and refuses to ask for.
 
 #include <cstdio>
+#include <memory>
 #include <new>
+#include <vector>
 
+#include "base/cached.h"
 #include "base/system.h"
 #include "base/workspace.h"
 #include "support/this_program.h"
@@ -63,6 +66,18 @@ TEST(Memory, ThatTheMachineLacksIsRefusedBeforeTheWork) {
   EXPECT_GT(available_memory(), std::size_t{1} << 26);
   EXPECT_LT(available_memory(), memory_limit());
   EXPECT_THROW(Block(memory_limit() - (std::size_t{1} << 20)), std::bad_alloc);
+}
+
+/// Caches of more threads than there are places for: the last keep nothing.
+TEST(Memory, HasAPlaceForTheCacheOfEachOfThirtyTwoThreads) {
+  struct Thing : pstripack::CachedThing {};
+  std::vector<pstripack::Cached<Thing>> caches(40);
+  for (int round = 0; round < 2; ++round) {
+    for (auto& cache : caches) cache.put(std::make_unique<Thing>());
+    std::size_t kept = 0;
+    for (auto& cache : caches) kept += cache.take() != nullptr;
+    EXPECT_EQ(kept, 32u) << "round " << round;
+  }
 }
 
 }  // namespace

@@ -553,6 +553,25 @@ TEST(Agreement, TellsFailuresOfAnyCodeFromVotes) {
   expect_agreed(PatchesDoNotPay(), 0);
 }
 
+TEST(Agreement, PassesOnTheCodeOfACommunicatorThatFails) {
+  const auto code_of_exchange = [](Communicator& ranks, const auto& body) {
+    try {
+      exchange_in_agreement(ranks, body);
+      return 0;
+    } catch (const AgreedFailure& failure) {
+      return static_cast<int>(failure.code);
+    }
+  };
+  const auto nothing = [] { return Parcels{{}, {0, 0}}; };
+  SingleProcess alone;
+  EXPECT_EQ(code_of_exchange(alone, nothing), 0);
+  EXPECT_EQ(code_of_exchange(alone, []() -> Parcels { throw std::bad_alloc(); }), -6);
+  struct Failing final : SingleProcess {
+    Parcels exchange(const Parcels&, std::int32_t) override { throw AgreedFailure(-6); }
+  } failing;
+  EXPECT_EQ(code_of_exchange(failing, nothing), -6);
+}
+
 /// The cost of a triangulation of 20,000 nodes by one rank.
 ParallelCost cost_of(const std::string& family, int patches, std::size_t most_questions) {
   const Set set(point_sets::make(family, 20000, 1));

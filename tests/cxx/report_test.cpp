@@ -140,7 +140,7 @@ TEST(Report, TellsEveryCode) {
   const Outcome outcome = run_self(folder, kOne, "codes");
   EXPECT_EQ(outcome.out, "");
   const auto all = lines(outcome.err);
-  ASSERT_EQ(all.size(), 7u);
+  ASSERT_EQ(all.size(), 9u);
   EXPECT_TRUE(matches(all[0], line_of("n=2 ranks=1 threads=1 triangles=0 boundary=0 ier=-1")));
   EXPECT_TRUE(matches(all[1], line_of("n=100 ranks=1 threads=1 triangles=0 boundary=0 ier=-2")));
   EXPECT_TRUE(matches(
@@ -148,7 +148,11 @@ TEST(Report, TellsEveryCode) {
   EXPECT_EQ(all[3].find("pstripack: trmesh: node 61 of 100"), 0u) << "the line of every IER -5";
   EXPECT_TRUE(matches(all[4], line_of("n=100 ranks=1 threads=1 triangles=[0-9]+ boundary=0 ier=31")));
   EXPECT_EQ(value(all[4], "triangles"), 2 * 70 - 4) << "nodes 1 to 70";
-  EXPECT_TRUE(matches(all[6], row_of(4)));
+  EXPECT_TRUE(matches(all[5], line_of("n=1073741824 ranks=1 threads=1 triangles=0 boundary=0 ier=-4")));
+  EXPECT_TRUE(matches(all[8], row_of(5)));
+  const Outcome in_order = run_self(folder, kOne + " PSTRIPACK_ORDER=original", "codes");
+  EXPECT_EQ(in_order.out, "");
+  EXPECT_EQ(lines(in_order.err).size(), 9u) << in_order.err;
 }
 
 TEST(Report, TellsTheLengthsWhereTheyAreNot1) {

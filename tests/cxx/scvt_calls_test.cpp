@@ -348,6 +348,9 @@ TEST(Scvt, ErrorsOfARunSayWhyAndWriteNothing) {
         nullptr, any_thread};
     refuses(Generators(3000), PSTRIPACK_BAD_DENSITY, "no such file", &throwing);
   }
+  const pstripack_density throws_a_number{[](std::int32_t, const double*, double*, void*) { throw 7; },
+                                          nullptr, 0};
+  refuses(Generators(50), PSTRIPACK_BAD_DENSITY, "the density threw an exception", &throws_a_number);
 
   const auto refuses_option = [&](const std::string& why, auto change) {
     pstripack_scvt_options options = defaults();
@@ -505,6 +508,26 @@ TEST(ScvtStep, OfDensitiesOfAnySize) {
   }
 }
 
+/// A mesh of 21 nodes on each of seven parallels and the poles, whose longitudes are then doubled: it covers
+/// the sphere twice.
+Step twice_around() {
+  const double circle = 2 * std::acos(-1.0);
+  std::vector<Point> points, doubled;
+  for (int parallel = -3; parallel <= 3; ++parallel)
+    for (int k = 0; k < 21; ++k) {
+      const double longitude = (k + 0.5 * (parallel & 1)) * circle / 21, latitude = parallel * circle / 18;
+      for (auto* const set : {&points, &doubled}) {
+        const double at = set == &points ? longitude : 2 * longitude;
+        set->push_back(
+            {std::cos(latitude) * std::cos(at), std::cos(latitude) * std::sin(at), std::sin(latitude)});
+      }
+    }
+  for (auto* const set : {&points, &doubled}) set->insert(set->end(), {{0, 0, 1}, {0, 0, -1}});
+  Step step(points);
+  step.generators = Generators(doubled);
+  return step;
+}
+
 TEST(ScvtStep, ErrorsSayWhyAndWriteNothing) {
   const Step good(point_sets::make("random", 100, 6));
   const auto refuses = [](Step step, std::int32_t code, const std::string& why,
@@ -540,6 +563,20 @@ TEST(ScvtStep, ErrorsSayWhyAndWriteNothing) {
   const auto neighbour = static_cast<std::size_t>(step.lists.list[0]) - 1;
   for (auto* v : {&step.generators.x, &step.generators.y, &step.generators.z}) (*v)[0] = (*v)[neighbour];
   refuses(step, PSTRIPACK_COINCIDENT, "generators 1 and " + std::to_string(neighbour + 1) + " coincide");
+  std::vector<Point> close = point_sets::make("random", 30, 1);
+  for (const Point& p :
+       {Point{1e-100, 0, 1}, Point{-1e-100, 0, 1}, Point{0, 1e-100, 1}, Point{0, -1e-100, 1}})
+    close.push_back(p);
+  close.push_back({0, 0, 1});
+  refuses(Step(close), PSTRIPACK_COINCIDENT, "the cell of generator 31 is too small");
+  step =
+      good;  // a generator most of the way to a neighbour: no triangle is clockwise, they are not Delaunay's
+  const auto near =
+      static_cast<std::size_t>(step.lists.list[static_cast<std::size_t>(step.lists.lend[0])]) - 1;
+  for (auto* v : {&step.generators.x, &step.generators.y, &step.generators.z})
+    (*v)[1] += 0.9 * ((*v)[near] - (*v)[1]);
+  refuses(step, PSTRIPACK_BAD_LISTS, "the cell of generator 2 has no mass");
+  refuses(twice_around(), PSTRIPACK_BAD_LISTS, "the areas of their cells add up to 25.13");
   Watch watch;
   watch.factor = -1;
   const pstripack_density density = density_of(watch);

@@ -7,12 +7,15 @@
 #include <cmath>
 #include <functional>
 #include <mutex>
+#include <new>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "parallel/agreement.h"
 #include "point_sets.h"
+#include "scvt/caller_agreement.h"
 #include "scvt/evaluator.h"
 #include "scvt/first_generators.h"
 #include "scvt/spread.h"
@@ -192,6 +195,55 @@ TEST(Spread, RowsGoWhereTheyAreSentInTheOrderOfTheirNumbers) {
       EXPECT_TRUE(std::signbit(slice.values[2 * i + 1]));
     }
   });
+}
+
+/// What a procedure of the caller throws on some ranks, all ranks get: each the same.
+TEST(Caller, ThrowsTheSameOnAllRanks) {
+  using Body = std::function<void(int rank)>;
+  const auto thrown_on_all = [](const Body& body) {
+    std::vector<std::string> thrown(3);
+    ThreadRanks::run(3, [&](Communicator& ranks) {
+      std::string& mine = thrown[static_cast<std::size_t>(ranks.rank())];
+      try {
+        in_agreement_with_caller(ranks, [&] { body(ranks.rank()); });
+        mine = "nothing";
+      } catch (const BadDensity& e) {
+        mine = std::string("bad density: ") + e.what();
+      } catch (const NoTessellation& e) {
+        mine = e.what();
+      } catch (const AgreedFailure& e) {
+        mine = "code " + std::to_string(e.code);
+      }
+    });
+    for (const std::string& of_rank : thrown) EXPECT_EQ(of_rank, thrown[0]);
+    return thrown[0];
+  };
+  EXPECT_EQ(thrown_on_all([](int) {}), "nothing");
+  EXPECT_EQ(thrown_on_all([](int rank) {
+              if (rank == 1) throw std::runtime_error("no such file");
+            }),
+            "no such file");
+  EXPECT_EQ(thrown_on_all([](int rank) {
+              if (rank == 2) throw 7;
+            }),
+            "a procedure of the caller threw an exception");
+  EXPECT_EQ(thrown_on_all([](int rank) {
+              if (rank == 0) throw std::bad_alloc();
+              if (rank == 1) throw std::runtime_error("no such file");
+            }),
+            "code -6");
+  // Of two bad values the one at the place that comes first; an exception comes before both.
+  const BadDensity east({0, 1, 0}, -2), west({0, -1, 0}, -3);
+  const auto bad = [&](int rank) {
+    if (rank == 1) throw east;
+    if (rank == 2) throw west;
+  };
+  EXPECT_EQ(thrown_on_all(bad), std::string("bad density: ") + west.what());
+  EXPECT_EQ(thrown_on_all([&](int rank) {
+              bad(rank);
+              throw std::runtime_error("no such file");
+            }),
+            "no such file");
 }
 
 }  // namespace

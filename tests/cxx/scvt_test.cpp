@@ -460,6 +460,34 @@ TEST(WellCentred, WhatCannotBeIsCounted) {
   EXPECT_EQ(worst_of(cube).obtuse, 0U);
 }
 
+/// An evaluator that finds generators coincident in one of its triangulations.
+class Collider final : public LocalEvaluator {
+ public:
+  Collider(const Density& density, int at) : LocalEvaluator(density), left_(at) {}
+  Neighbourhood triangulate(const std::vector<Point>& generators) override {
+    if (--left_ == 0) throw CoincidentGenerators(1, 2);
+    return LocalEvaluator::triangulate(generators);
+  }
+
+ private:
+  int left_;
+};
+
+TEST(WellCentred, GeneratorsThatAreMovedOntoEachOtherStayWhereTheyWere) {
+  const std::vector<Point> given = random_generators(500, kConstant, 1);
+  for (const int at : {2, 3}) {
+    Collider evaluator(kConstant, at);
+    std::vector<Point> points = given;
+    const Repair repair = make_well_centred(evaluator, points);
+    const Worst worst = worst_of(points);
+    EXPECT_EQ(static_cast<std::size_t>(repair.obtuse), worst.obtuse) << at;
+    EXPECT_EQ(repair.bad, worst.bad) << at;
+  }
+  Collider at_once(kConstant, 1);
+  std::vector<Point> points = given;
+  EXPECT_THROW(make_well_centred(at_once, points), CoincidentGenerators);
+}
+
 TEST(WellCentred, HasTheSameBitsForAnyNumberOfThreads) {
 #ifndef _OPENMP
   GTEST_SKIP() << "without OpenMP";
@@ -734,6 +762,20 @@ TEST(BadInput, GeneratorsOfWhichTheFirstThreeLieOnAGreatCircle) {
   EXPECT_EQ(error.second, 11);
 }
 
+TEST(BadInput, GeneratorsThatAreTooFewOrNoDirections) {
+  const auto said = [](const std::vector<Point>& generators) {
+    return std::string(error_of<BadGenerators>(generators, kConstant).what());
+  };
+  std::vector<Point> generators = octahedron();
+  EXPECT_EQ(said({generators.begin(), generators.begin() + 3}),
+            "a tessellation needs at least 4 generators, here are 3");
+  EXPECT_THROW(run(3, kConstant, {}), BadGenerators);
+  for (const Point& none : {Point{0, 0, 0}, Point{1, NAN, 0}}) {
+    generators[4] = none;
+    EXPECT_EQ(said(generators), "generator 5 is zero or not finite");
+  }
+}
+
 TEST(BadInput, Densities) {
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {0.0, -1.0, static_cast<double>(NAN), infinity}) {
@@ -760,6 +802,12 @@ TEST(BadInput, DensitiesThatVaryTooMuch) {
     EXPECT_EQ(error.elsewhere, 1);
     EXPECT_NE(std::string(error.what()).find(" and 1 elsewhere: the ratio is too large"), std::string::npos);
   }
+  // Not at the generators, from which the scale is taken: between them.
+  const std::vector<Point> generators = point_sets::make("random", 100, 1);
+  const FormulaDensity between([&](const Point& p) {
+    return std::find(generators.begin(), generators.end(), p) != generators.end() ? 1.0 : 1e250;
+  });
+  EXPECT_EQ(error_of<BadDensity>(generators, between).value, 1e250);
   const FormulaDensity both([=](const Point& p) { return p.z > -0.5 ? 1e300 : 1e-300; });
   EXPECT_EQ(error_of<BadDensity>(point_sets::make("random", 100, 1), both).value, 1e-300);
   const FormulaDensity much([](const Point& p) { return p.z > 0 ? 1e100 : 1e-100; });

@@ -318,14 +318,33 @@ void change(Rings& rings, point_sets::Random& random) {
 
 }  // namespace
 
+TEST(TriangleList, RefusesWrongArgumentsAndListsThatDoNotClose) {
+  PlainLists lists = plain_lists(point_sets::make("random", 12), Slots::canonical);
+  std::vector<std::int32_t> ltri(9 * 20, 7);
+  const auto status_of = [&](std::size_t n, int rows) {
+    std::int32_t nt = -1;
+    const ListsView<std::int32_t> view{n, lists.list.data(), lists.lptr.data(), lists.lend.data(), 0};
+    const TriangleListStatus status = triangle_list(view, rows, nt, ltri.data());
+    EXPECT_EQ(nt, 0);
+    return status;
+  };
+  EXPECT_EQ(status_of(2, 6), TriangleListStatus::bad_argument);
+  for (const int rows : {0, 2, 7, 12}) EXPECT_EQ(status_of(12, rows), TriangleListStatus::bad_argument);
+  for (const int slot : {0, -1, 61, 1}) {
+    lists.lptr[static_cast<std::size_t>(lists.lend[6]) - 1] = slot;
+    EXPECT_EQ(status_of(12, 6), TriangleListStatus::broken_lists) << slot;
+  }
+  EXPECT_EQ(ltri, std::vector<std::int32_t>(9 * 20, 7));
+}
+
 /// Also for so few small numbers that wrong ones can have the right sum.
 TEST(TriangleList, RefusesTheListsWhoseRingsDisagreeAndNoOthers) {
   point_sets::Random random(3);
   int accepted = 0, refused = 0;
   for (int i = 0; i < 20000; ++i) {
     const std::size_t n = 4 + random.below(5);
-    const PlainLists whole =
-        plain_lists(point_sets::make(i % 2 == 0 ? "random" : "cap", n), Slots::canonical);
+    const std::vector<Point> nodes = point_sets::make(i % 2 == 0 ? "random" : "cap", n);
+    const PlainLists whole = plain_lists(nodes, Slots::canonical);
     Rings rings(n);
     for (std::size_t k = 0, slot = 0; k < n; ++k)
       while (slot < static_cast<std::size_t>(whole.lend[k])) rings[k].push_back(whole.list[slot++]);
@@ -338,6 +357,26 @@ TEST(TriangleList, RefusesTheListsWhoseRingsDisagreeAndNoOthers) {
     const bool right = agree(rings);
     ++(right ? accepted : refused);
     std::vector<std::int32_t> ltri(9 * (2 * n - 4));
+    if (!right) {
+      std::vector<double> x(n), y(n), z(n), xc(2 * n - 4), yc(xc), zc(xc), rc(xc);
+      for (std::size_t k = 0; k < n; ++k) x[k] = nodes[k].x, y[k] = nodes[k].y, z[k] = nodes[k].z;
+      std::vector<std::int32_t> lptr = lists.lptr, far_side(6 * n), listc(lptr.size());
+      std::int32_t lnew = static_cast<std::int32_t>(lists.slots) + 1, nb = -1;
+      const VoronoiArrays<double, std::int32_t> out{static_cast<std::int32_t>(n),
+                                                    lptr.data(),
+                                                    &lnew,
+                                                    far_side.data(),
+                                                    listc.data(),
+                                                    &nb,
+                                                    xc.data(),
+                                                    yc.data(),
+                                                    zc.data(),
+                                                    rc.data()};
+      ASSERT_NE(voronoi(ListsView<std::int32_t>{n, lists.list.data(), lptr.data(), lists.lend.data(), lnew},
+                        Nodes<double>{x.data(), y.data(), z.data()}, out),
+                VoronoiStatus::done)
+          << i;
+    }
     for (const int rows : {3, 6, 9}) {
       std::int32_t nt = -1;
       const auto status = triangle_list(

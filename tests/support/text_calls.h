@@ -14,6 +14,10 @@
 //                       triangulation or Voronoi diagram. NULL unless 0. title[title_length]; numbr: 0 or not
 //   voronoi_poly_count  needs no reals: _i4, _i8
 //
+//   number_at           _i4, _i8: the integer at `address`, for an argument that the caller may not have
+//   passed;
+//                       -1 if that cannot be read, or is the address of one of the others
+//
 //   pstripack_next_record   copies the next record, without its end, to record[capacity]: the number of its
 //                           characters, at most capacity; -1 after the last one, or if text is NULL
 //   pstripack_free_text     text may be NULL
@@ -30,6 +34,9 @@ void* pstripack_voronoi_poly_count_i4(std::int32_t n, const std::int32_t* lend, 
                                       const std::int32_t* listc) noexcept;
 void* pstripack_voronoi_poly_count_i8(std::int64_t n, const std::int64_t* lend, const std::int64_t* lptr,
                                       const std::int64_t* listc) noexcept;
+std::int32_t pstripack_number_at_i4(const std::int32_t* address, const std::int32_t* n,
+                                    const std::int32_t* fifth, const std::int32_t* sixth,
+                                    const std::int32_t* seventh, const std::int32_t* eighth) noexcept;
 
 #define PRINT_CALLS(Real, Int, suffix)                                                                      \
   void* pstripack_trprnt_##suffix(Int n, const Real* x, const Real* y, const Real* z, Int iflag,            \

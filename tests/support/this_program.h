@@ -56,7 +56,7 @@ inline void expect_line(const std::string& text, const std::string& begin, const
   EXPECT_NE(text.find(then), std::string::npos) << text;
 }
 
-/// TRMESH returns the codes that STRIPACK documents, and -5; four calls.
+/// TRMESH returns the codes that STRIPACK documents, -5 and -4; five calls.
 inline bool codes_are_right() {
   Nodes nodes = point_sets::make("random", 100);
   if (trmesh(Nodes(nodes.begin(), nodes.begin() + 2)).ier != PSTRIPACK_TOO_FEW_NODES) return false;
@@ -69,7 +69,9 @@ inline bool codes_are_right() {
   if (trmesh(other).ier != PSTRIPACK_BAD_COORDINATE) return false;
   other = nodes;
   other[70] = other[30];
-  return trmesh(other).ier == 31;
+  if (trmesh(other).ier != 31) return false;
+  return pstripack_trmesh(1 << 30, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr) ==
+         PSTRIPACK_TOO_MANY_NODES;
 }
 
 /// Ends the program with code 1 unless the mesh is right and errno as before. ThreadSanitizer changes errno.

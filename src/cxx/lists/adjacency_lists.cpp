@@ -18,16 +18,9 @@ namespace {
 struct StoredRings {
   const std::int32_t* rings;
   const std::uint32_t* place;
-  std::size_t count;
 
-  std::size_t size() const { return count; }
   Ring<std::int32_t> operator[](std::size_t i) const { return ring_at(rings + place[i]); }
   [[gnu::always_inline]] void prefetch(std::size_t i) const { __builtin_prefetch(rings + place[i]); }
-  std::size_t arcs(std::size_t first, std::size_t last) const {
-    std::size_t sum = 0;
-    for (std::size_t i = first; i < last; ++i) sum += static_cast<std::size_t>(rings[place[i]]);
-    return sum;
-  }
 };
 
 }  // namespace
@@ -48,7 +41,7 @@ std::int32_t write_lists(const Hull& hull, std::int32_t* list, std::int32_t* lpt
   workspace.keep_only_this_phase();
   // Then, in the order of the caller's nodes, so that the lists are written from front to back: copy the
   // rings.
-  write_piece(StoredRings{rings, ring_of, n}, 0, list, lend, 1);
+  write_rings(StoredRings{rings, ring_of}, 0, n, 0, 0, list, lend);
   write_lptr(lend, n, 0, lptr, 1);
   return lend[n - 1] + 1;
 }

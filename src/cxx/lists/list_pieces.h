@@ -37,13 +37,27 @@ inline void copy_ring(const Int* from, std::size_t count, Entry* to) {
 void write_lptr(const std::int32_t* lend, std::size_t n, std::size_t first_slot, std::int32_t* lptr,
                 int threads);
 
+/// Writes the rings of nodes first..last-1 of a table one after another, from list[slot] on, and their
+/// entries of LEND. list[0] is the slot first_slot (from 0) of the whole LIST.
+template <class Rings>
+void write_rings(const Rings& rings, std::size_t first, std::size_t last, std::size_t slot,
+                 std::size_t first_slot, std::int32_t* list, std::int32_t* lend) {
+  constexpr std::size_t kAhead = 16;  // prefetched: rings lie in the order of patches, not of nodes
+  for (std::size_t k = first; k < last; ++k) {
+    if (k + kAhead < last) rings.prefetch(k + kAhead);
+    const auto ring = rings[k];
+    copy_ring(ring.begin, ring.count, list + slot);
+    slot += ring.count;
+    lend[k] = static_cast<std::int32_t>(first_slot + slot);
+  }
+}
+
 /// Writes LIST and LEND of the nodes of a table, such as RingTable: their rings one after another. list[0] is
 /// the slot first_slot (from 0) of the whole LIST. Writes lend[0..rings.size()-1] and
 /// list[0..rings.arcs()-1]. threads: from threads_for.
 template <class Rings>
 void write_piece(const Rings& rings, std::size_t first_slot, std::int32_t* list, std::int32_t* lend,
                  int threads) {
-  constexpr std::size_t kAhead = 16;     // prefetched: rings lie in the order of patches, not of nodes
   std::array<std::size_t, 256> begin{};  // where each thread's part begins
   threads = std::min<int>(threads, begin.size() - 1);
   if (threads > 1)
@@ -52,14 +66,7 @@ void write_piece(const Rings& rings, std::size_t first_slot, std::int32_t* list,
     });
   for (std::size_t t = 1; t < begin.size(); ++t) begin[t] += begin[t - 1];
   parallel_pieces(rings.size(), threads, [&](std::size_t first, std::size_t last, int piece) {
-    std::size_t slot = begin[static_cast<std::size_t>(piece)];
-    for (std::size_t k = first; k < last; ++k) {
-      if (k + kAhead < last) rings.prefetch(k + kAhead);
-      const auto ring = rings[k];
-      copy_ring(ring.begin, ring.count, list + slot);
-      slot += ring.count;
-      lend[k] = static_cast<std::int32_t>(first_slot + slot);
-    }
+    write_rings(rings, first, last, begin[static_cast<std::size_t>(piece)], first_slot, list, lend);
   });
 }
 
