@@ -14,7 +14,7 @@ build=${1:-$source/build-coverage}
 [ $# -eq 0 ] || shift
 
 if [ $# -eq 0 ]; then
-  tests='predicates_test|validator_test|mesh_test|edit_(broken_lists_)?test|listing_test|plot_test|check_test|report_test'
+  tests='predicates_test|validator_test|mesh_test|edit_(broken_lists_)?test|(listing|plot|check|report|memory)_test'
   tests="$tests|catalogue_(numbers|callers|duplicates|beyond)|fuzz_corpus|faults"
   tests="$tests|fortran\\.|privileges|point_files|dlopen"
   tests="$tests|search_test|triangle_list_test|measures_test|inside_test|scvt_(calls_|ranks_)?test"
@@ -28,7 +28,7 @@ cmake --preset coverage -B "$build"
 cmake --build "$build" -j "$(nproc)"
 find "$build" -name '*.gcda' -delete
 export PSTRIPACK_CASES=0.02
-few='*FewNodes*:*Nasty*:*Coincident*:*GivingUp*:*/np1_*:*/np3_*'
+few='*FewNodes*:Agreement*:*Nasty*:*Coincident*:*GivingUp*:*/np1_*:*/np3_*'
 for program in catalogue_small delaunay parallel; do
   PSTRIPACK_WARM_START=0 "$build/tests/cxx/${program}_test" --gtest_filter="$few"
 done

@@ -268,18 +268,28 @@ TEST(Text, OfAHandleThatIsNull) {
   pstripack_free_text(nullptr);
 }
 
-/// It is read by a system call, which needs two file descriptors.
-TEST(NumberAt, IsUnknownWhereTheProcessMayOpenNoMoreFiles) {
-  const std::int32_t number = 7, other = 8;
-  const auto read = [&] { return pstripack_number_at_i4(&number, &other, &other, &other, &other, &other); };
-  EXPECT_EQ(read(), 7);
+/// The number is read by a system call, which needs two file descriptors.
+template <class Int, class NumberAt>
+void expect_number_unless_unreadable(const NumberAt& number_at) {
+  const Int number = 7, other = 8;
+  const auto read = [&](const Int* address) {
+    return number_at(address, &other, &other, &other, &other, &other);
+  };
+  EXPECT_EQ(read(&number), 7);
+  EXPECT_EQ(read(&other), -1) << "another argument";
+  EXPECT_EQ(read(nullptr), -1);
   rlimit before;
   ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
   const rlimit none{0, before.rlim_max};
   ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
-  EXPECT_EQ(read(), -1);
+  EXPECT_EQ(read(&number), -1) << "no more files";
   ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
-  EXPECT_EQ(read(), 7);
+  EXPECT_EQ(read(&number), 7);
+}
+
+TEST(NumberAt, IsUnknownWhereNoneWasPassedOrItCannotBeRead) {
+  expect_number_unless_unreadable<std::int32_t>(pstripack_number_at_i4);
+  expect_number_unless_unreadable<std::int64_t>(pstripack_number_at_i8);
 }
 
 }  // namespace

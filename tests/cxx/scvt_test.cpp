@@ -773,6 +773,7 @@ TEST(BadInput, GeneratorsThatAreTooFewOrNoDirections) {
   for (const Point& none : {Point{0, 0, 0}, Point{1, NAN, 0}}) {
     generators[4] = none;
     EXPECT_EQ(said(generators), "generator 5 is zero or not finite");
+    EXPECT_THROW(LocalEvaluator(kConstant).triangulate(generators), BadGenerators);
   }
 }
 

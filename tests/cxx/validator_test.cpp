@@ -9,6 +9,7 @@
 #include <string>
 
 #include "lists/adjacency_lists.h"
+#include "lists/rings.h"
 #include "mesh/validate.h"
 #include "point_sets.h"
 #include "support/cases.h"
@@ -580,7 +581,8 @@ TEST(Validator, AcceptsAndDoubtsNodesOfManyNeighbours) {
 }
 
 TEST(Validator, DoubtsAHubThatANeighbourDoesNotKnow) {
-  constexpr int n = 60, north = 0, south = 1;
+  constexpr int n = 70, north = 0, south = 1;
+  ASSERT_GT(n, pstripack::Rings<std::int32_t>::few_neighbours);
   Lists lists = canonical_lists(*rings_of(n + 2, two_hubs(n, 2, north, south)));
   ASSERT_TRUE(pstripack::check_topology(view(lists)));
   const auto list = lists.list.begin() + lists.lend[20];  // of node 22

@@ -37,6 +37,9 @@ void* pstripack_voronoi_poly_count_i8(std::int64_t n, const std::int64_t* lend, 
 std::int32_t pstripack_number_at_i4(const std::int32_t* address, const std::int32_t* n,
                                     const std::int32_t* fifth, const std::int32_t* sixth,
                                     const std::int32_t* seventh, const std::int32_t* eighth) noexcept;
+std::int64_t pstripack_number_at_i8(const std::int64_t* address, const std::int64_t* n,
+                                    const std::int64_t* fifth, const std::int64_t* sixth,
+                                    const std::int64_t* seventh, const std::int64_t* eighth) noexcept;
 
 #define PRINT_CALLS(Real, Int, suffix)                                                                      \
   void* pstripack_trprnt_##suffix(Int n, const Real* x, const Real* y, const Real* z, Int iflag,            \
