@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -230,14 +231,39 @@ TYPED_TEST(Edit, ArgumentsOutOfRangeAndTooLittleWorkSpace) {
               na == 0 ? OptimStatus::done : OptimStatus::bad_argument);
     EXPECT_EQ(nit, 0);
   }
-  for (const auto& [a, b] : {std::pair<Int, Int>(0, 1), {13, 1}, {1, 0}, {1, 13}, {1, 1}})
-    EXPECT_EQ(delarc(a, b, mesh.lists()), DelarcStatus::bad_argument) << a << " " << b;
-  EXPECT_EQ(delarc(Int(1), Int(2), mesh.lists(3)), DelarcStatus::bad_argument);
   OptimFailure<Int> failure;
+  const auto edge_of = [&](Int a, Int b, Int lwk) {
+    return edge(a, b, mesh.nodes(), lwk, mesh.iwk.data(), mesh.unbounded(), failure);
+  };
+  const auto delnb_of = [&](Int n0, Int nb, Int n) {
+    Int slot = 7;
+    EXPECT_EQ(delnb(n0, nb, mesh.lists(n), slot), 0);
+    return slot;
+  };
+  for (const auto& [a, b] : {std::pair<Int, Int>(0, 1), {13, 1}, {1, 0}, {1, 13}, {1, 1}}) {
+    EXPECT_EQ(delarc(a, b, mesh.lists()), DelarcStatus::bad_argument) << a << " " << b;
+    if (a != b) {
+      EXPECT_EQ(delnb_of(a, b, 12), no_such_node) << a << " " << b;
+    }
+    if (a < 13 && b < 13) {  // EDGE is not told N
+      EXPECT_EQ(edge_of(a, b, 12), EdgeStatus::bad_argument) << a << " " << b;
+    }
+  }
+  EXPECT_EQ(delarc(Int(1), Int(2), mesh.lists(3)), DelarcStatus::bad_argument);
+  EXPECT_EQ(delnb_of(1, 2, 2), no_such_node);
+  EXPECT_EQ(edge_of(1, 2, -1), EdgeStatus::bad_argument);
   const auto delnod_of = [&](Int k, Int& lwk) {
     return delnod(k, mesh.n, mesh.x.data(), mesh.y.data(), mesh.z.data(), mesh.lists(), lwk, mesh.iwk.data(),
                   failure);
   };
+  for (const auto& [k, work, n] : {std::array<Int, 3>{0, 9, 12}, {13, 9, 12}, {1, -1, 12}, {1, 9, 3}}) {
+    Int lwk = work;
+    mesh.n = n;
+    EXPECT_EQ(delnod_of(k, lwk), DelnodStatus::bad_argument) << k;
+    EXPECT_EQ(lwk, work);
+  }
+  mesh.n = 12;
+  EXPECT_TRUE(mesh == good);
   int without_work = 0;
   for (Int k = 1; k <= good.n; ++k) {
     Int lwk = 0;

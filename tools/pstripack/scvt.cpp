@@ -655,6 +655,12 @@ files::Nodes read_start(Communicator& ranks, const ScvtOptions& options) {
 void scvt(ScvtOptions& options, Ranks& ranks) {
   Communicator& communicator = ranks.communicator;
   in_agreement_with_caller(communicator, [&] {
+    for (const std::string& file :
+         {options.density_file, options.width_file, options.width_region, options.region,
+          options.width_distance.substr(0, options.width_distance.find(':'))})
+      if (file == "-" && communicator.size() > 1)
+        throw std::runtime_error(
+            "-: each rank reads this file, and rank 0 alone has the standard input: name a file");
     if (communicator.rank() > 0) return;
     for (const Output* const output : {&options.output, &options.checkpoint})
       if (!output->file.empty())

@@ -1234,6 +1234,8 @@ def test_scvt_ranks_begin_and_continue_as_one_process():
         output(f"{command} -o one.vtu")
         on_ranks(2, f"-q {command} -o ranks.vtu")
         assert read("ranks.vtu") == read("one.vtu")
+    for option in "300 --density-file -", "--width-distance -:30:300:1000":
+        ranks_refuse(2, 1, f"scvt {option} -o failed.txt", "rank 0 alone has the standard input: name a file")
     # A checkpoint of three ranks continues to the same bytes on two ranks and on one.
     bump = "--density bump --tolerance 1e-9 --evaluations"
     on_ranks(3, f"-q scvt 300 {bump} 14 --every 4 --checkpoint ranks.nc -o short.nc")
