@@ -35,5 +35,5 @@ done
 PSTRIPACK_WARM_START=0 PSTRIPACK_CASES=1 "$build/tests/cxx/moving_stars_test"  # fewer cases have no flips across ranks
 ctest --test-dir "$build" --output-on-failure -j "$(nproc)" "$@"
 gcovr --root "$source" --filter src/cxx/ --exclude-throw-branches --exclude-unreachable-branches \
-  --branches --txt "$build/src/cxx" "$build/tests"
+  --txt --branches "$build/src/cxx" "$build/tests"
 python3 "$here/required.py" "$build"
