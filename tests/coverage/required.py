@@ -129,6 +129,8 @@ def main():
                 missing.append(f"{name}:{k + 1}: {branches.count(False) or 'all'} not taken: {code[k]}")
         left_out += len(allowed)
         idle += [f"{name}:{min(statement) + 1}: is tested" for statement in allowed if not statement & used]
+    if paths == 0:
+        sys.exit(f"required.py: {sys.argv[1]}: no counts of src/cxx")
     print(f"{paths} lines of error paths; {left_out} statements left out")
     print("\n".join(missing + idle))
     sys.exit(1 if missing or idle else 0)

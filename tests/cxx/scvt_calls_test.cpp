@@ -569,8 +569,8 @@ TEST(ScvtStep, ErrorsSayWhyAndWriteNothing) {
     close.push_back(p);
   close.push_back({0, 0, 1});
   refuses(Step(close), PSTRIPACK_COINCIDENT, "the cell of generator 31 is too small");
-  step =
-      good;  // a generator most of the way to a neighbour: no triangle is clockwise, they are not Delaunay's
+  // A generator most of the way to a neighbour: no triangle is clockwise, but they are not Delaunay's.
+  step = good;
   const auto near =
       static_cast<std::size_t>(step.lists.list[static_cast<std::size_t>(step.lists.lend[0])]) - 1;
   for (auto* v : {&step.generators.x, &step.generators.y, &step.generators.z})

@@ -109,49 +109,63 @@ void expect_columns(const PlainLists& lists) {
   }
 }
 
+/// CRLIST's arguments and results.
+template <class Real, class Int>
+struct Diagram {
+  Diagram(const PlainLists& lists, const std::vector<Point>& points)
+      : lptr(Arrays<Int>::converted(lists.lptr)), lnew(static_cast<Int>(lists.slots) + 1) {
+    for (const Point& p : points) {
+      x.push_back(static_cast<Real>(p.x));
+      y.push_back(static_cast<Real>(p.y));
+      z.push_back(static_cast<Real>(p.z));
+    }
+    for (auto* const of_triangles : {&xc, &yc, &zc, &rc}) of_triangles->resize(2 * points.size() - 4);
+    ltri.resize(6 * points.size());
+    listc.resize(lptr.size());
+  }
+  Nodes<Real> nodes() const { return {x.data(), y.data(), z.data()}; }
+  VoronoiStatus make(const Int* list, const Int* lend) {
+    return voronoi(ListsView<Int>{x.size(), list, lptr.data(), lend, 0}, nodes(),
+                   VoronoiArrays<Real, Int>{static_cast<Int>(x.size()), lptr.data(), &lnew, ltri.data(),
+                                            listc.data(), &nb, xc.data(), yc.data(), zc.data(), rc.data()});
+  }
+  std::vector<Real> x, y, z, xc, yc, zc, rc;
+  std::vector<Int> lptr, ltri, listc;
+  Int lnew, nb = -1;
+};
+
 /// The triangles of the set, without those that close the sphere, and their circumcentres.
 template <class Real, class Int>
 void expect_voronoi(const PlainLists& lists, const std::vector<Point>& points) {
   const Expected expected = by_definition(lists);
   Arrays<Int> arrays(lists);
+  Diagram<Real, Int> made(lists, points);
+  ASSERT_EQ(made.make(arrays.list.data(), arrays.lend.data()), VoronoiStatus::done);
+  const Nodes<Real> nodes = made.nodes();
   const std::size_t n = points.size();
-  std::vector<Real> x, y, z, xc(2 * n - 4), yc(xc), zc(xc), rc(xc);
-  for (const Point& p : points) {
-    x.push_back(static_cast<Real>(p.x));
-    y.push_back(static_cast<Real>(p.y));
-    z.push_back(static_cast<Real>(p.z));
-  }
-  std::vector<Int> lptr(Arrays<Int>::converted(lists.lptr)), ltri(6 * n), listc(lptr.size());
-  Int lnew = static_cast<Int>(lists.slots) + 1, nb = -1;
-  const Nodes<Real> nodes{x.data(), y.data(), z.data()};
-  ListsView<Int> view = arrays.view();
-  view.lptr = lptr.data();
-  ASSERT_EQ(voronoi(view, nodes,
-                    VoronoiArrays<Real, Int>{static_cast<Int>(n), lptr.data(), &lnew, ltri.data(),
-                                             listc.data(), &nb, xc.data(), yc.data(), zc.data(), rc.data()}),
-            VoronoiStatus::done);
   // Triangles have other numbers than in TRLIST: compared by their corners, with the number as a name.
-  const int far = nb > 0 ? static_cast<int>(nb) - 2 : 0;
+  const int far = made.nb > 0 ? static_cast<int>(made.nb) - 2 : 0;
   std::map<int, int> number;
   int largest = 0;
   for (std::size_t s = 0; s < lists.slots; ++s)
     if (expected.listc[s] != 0) {
-      ASSERT_GT(listc[s], far);
-      const auto known = number.emplace(expected.listc[s], static_cast<int>(listc[s])).first;
-      ASSERT_EQ(known->second, static_cast<int>(listc[s])) << "slot " << s + 1;
-      largest = std::max(largest, static_cast<int>(listc[s]));
+      ASSERT_GT(made.listc[s], far);
+      const auto known = number.emplace(expected.listc[s], static_cast<int>(made.listc[s])).first;
+      ASSERT_EQ(known->second, static_cast<int>(made.listc[s])) << "slot " << s + 1;
+      largest = std::max(largest, static_cast<int>(made.listc[s]));
     }
   ASSERT_EQ(largest, static_cast<int>(2 * n - 4));
-  for (int i = 0; i < 6 * far; ++i) ASSERT_TRUE(i % 6 < 3 ? ltri[i] >= 1 : ltri[i] <= far) << "far side";
+  for (int i = 0; i < 6 * far; ++i)
+    ASSERT_TRUE(i % 6 < 3 ? made.ltri[i] >= 1 : made.ltri[i] <= far) << "far side";
   for (const auto& [t, name] : number) {
     const auto& column = expected.columns[static_cast<std::size_t>(t - 1)];
     Vector<Real> centre;
     ASSERT_TRUE(circumcentre(nodes[column[0]], nodes[column[1]], nodes[column[2]], centre));
     const auto i = static_cast<std::size_t>(name - 1);
-    ASSERT_EQ(xc[i], centre.x) << name;
-    ASSERT_EQ(yc[i], centre.y);
-    ASSERT_EQ(zc[i], centre.z);
-    ASSERT_EQ(rc[i], clamped_acos(dot(nodes[column[0]], centre)));
+    ASSERT_EQ(made.xc[i], centre.x) << name;
+    ASSERT_EQ(made.yc[i], centre.y);
+    ASSERT_EQ(made.zc[i], centre.z);
+    ASSERT_EQ(made.rc[i], clamped_acos(dot(nodes[column[0]], centre)));
   }
 }
 
@@ -358,22 +372,7 @@ TEST(TriangleList, RefusesTheListsWhoseRingsDisagreeAndNoOthers) {
     ++(right ? accepted : refused);
     std::vector<std::int32_t> ltri(9 * (2 * n - 4));
     if (!right) {
-      std::vector<double> x(n), y(n), z(n), xc(2 * n - 4), yc(xc), zc(xc), rc(xc);
-      for (std::size_t k = 0; k < n; ++k) x[k] = nodes[k].x, y[k] = nodes[k].y, z[k] = nodes[k].z;
-      std::vector<std::int32_t> lptr = lists.lptr, far_side(6 * n), listc(lptr.size());
-      std::int32_t lnew = static_cast<std::int32_t>(lists.slots) + 1, nb = -1;
-      const VoronoiArrays<double, std::int32_t> out{static_cast<std::int32_t>(n),
-                                                    lptr.data(),
-                                                    &lnew,
-                                                    far_side.data(),
-                                                    listc.data(),
-                                                    &nb,
-                                                    xc.data(),
-                                                    yc.data(),
-                                                    zc.data(),
-                                                    rc.data()};
-      ASSERT_NE(voronoi(ListsView<std::int32_t>{n, lists.list.data(), lptr.data(), lists.lend.data(), lnew},
-                        Nodes<double>{x.data(), y.data(), z.data()}, out),
+      ASSERT_NE((Diagram<double, std::int32_t>(lists, nodes).make(lists.list.data(), lists.lend.data())),
                 VoronoiStatus::done)
           << i;
     }

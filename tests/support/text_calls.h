@@ -14,9 +14,8 @@
 //                       triangulation or Voronoi diagram. NULL unless 0. title[title_length]; numbr: 0 or not
 //   voronoi_poly_count  needs no reals: _i4, _i8
 //
-//   number_at           _i4, _i8: the integer at `address`, for an argument that the caller may not have
-//   passed;
-//                       -1 if that cannot be read, or is the address of one of the others
+//   number_at           the integer at `address`, where the caller may have passed none; -1 if it cannot be
+//                       read, or if `address` is that of another argument: _i4, _i8
 //
 //   pstripack_next_record   copies the next record, without its end, to record[capacity]: the number of its
 //                           characters, at most capacity; -1 after the last one, or if text is NULL
